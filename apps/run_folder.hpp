@@ -1,0 +1,36 @@
+// What a run leaves in its folder; file names and columns are a contract (apps/README.md).
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "solver/run.hpp"
+
+namespace myowave::apps {
+
+class RunFolder final : public solver::OutputSink {
+ public:
+  // Creates the folder. Errors: InputError where it exists and `force` is false, or cannot be made.
+  RunFolder(std::filesystem::path folder, const solver::Scene&, bool force, bool quiet);
+  ~RunFolder() override;
+
+  void write_manifest(const nlohmann::json& effective_configuration);
+  // `failure`: what ended the run early, in words. May be called more than once.
+  void write_summary(const solver::RunSummary&, const std::optional<std::string>& failure);
+
+  void fields(const solver::Frame&) override;
+  void probes(double t, std::span<const double>) override;
+  void tips(double t, std::span<const solver::Tip>) override;
+  void area(double t, double total, double min, double max) override;
+  void progress(const solver::Progress&) override;
+  bool wants_fields() const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace myowave::apps

@@ -1,0 +1,36 @@
+# Settings shared by every target of the project.
+include(CheckCXXCompilerFlag)
+
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+
+add_library(myowave_options INTERFACE)
+target_compile_features(myowave_options INTERFACE cxx_std_20)
+# Warnings and code generation are the host compiler's own; nvcc and hipcc bring theirs.
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  target_compile_options(myowave_options INTERFACE -Wall -Wextra -Wshadow)
+  # No kernel reads errno, and without it sqrt and friends vectorise.
+  target_compile_options(myowave_options INTERFACE -fno-math-errno)
+  if(MYOWAVE_NATIVE)
+    check_cxx_compiler_flag(-march=native MYOWAVE_HAS_MARCH_NATIVE)
+    if(MYOWAVE_HAS_MARCH_NATIVE)
+      target_compile_options(myowave_options INTERFACE -march=native)
+    endif()
+  endif()
+endif()
+if(MYOWAVE_SANITIZE)
+  target_compile_options(myowave_options INTERFACE -fsanitize=${MYOWAVE_SANITIZE} -fno-omit-frame-pointer
+                                                   -fno-sanitize-recover=all)
+  target_link_options(myowave_options INTERFACE -fsanitize=${MYOWAVE_SANITIZE})
+endif()
+
+# The git revision that a build was made from, looked up at every build.
+add_custom_target(myowave_revision
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
+          -DOUTPUT=${PROJECT_BINARY_DIR}/generated/myowave_version.hpp
+          -P ${PROJECT_SOURCE_DIR}/cmake/Revision.cmake
+  BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/myowave_version.hpp
+  COMMENT "")
+add_library(myowave_version INTERFACE)
+add_dependencies(myowave_version myowave_revision)
+target_include_directories(myowave_version INTERFACE ${PROJECT_BINARY_DIR}/generated)

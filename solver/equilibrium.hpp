@@ -1,0 +1,53 @@
+// Static equilibrium of the loaded, actively stressed membrane: the state, its solver, its report.
+#pragma once
+
+#include <Kokkos_Core.hpp>
+#include <cstdint>
+#include <memory>
+
+#include "kernels/base/views.hpp"
+#include "kernels/elastic/element_grid.hpp"
+#include "solver/scene.hpp"
+
+namespace myowave::solver {
+
+// What one solve took.
+struct SolveReport {
+  std::int64_t iterations = 0;
+  std::int64_t factorizations = 0;
+  std::int64_t shifts = 0;     // factorisations of K + mu I
+  std::int64_t ramp_steps = 0;  // 0: Ta was applied at once
+  double residual = 0;         // max|R_free| / (10 kPa h) at the end
+  double energy = 0;           // Pi at the end, kPa x area
+  double min_J = 0;            // smallest det F at any corner of any element
+};
+
+template <class ExecutionSpace>
+class Equilibrium {
+ public:
+  using MemorySpace = typename ExecutionSpace::memory_space;
+
+  // Starts undeformed. Analyses the sparsity pattern once.
+  Equilibrium(const ExecutionSpace&, const elastic::ElementGrid&, const MechanicsSettings&);
+  ~Equilibrium();
+  Equilibrium(Equilibrium&&) noexcept;
+  Equilibrium& operator=(Equilibrium&&) noexcept;
+
+  // Brings the nodes to equilibrium with the tension (kPa, at the Gauss points), starting from
+  // where they are. On failure the nodes keep their last accepted positions.
+  // Errors: NumericalFailure with time, Ta range, min J and what was tried.
+  SolveReport solve(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double time);
+
+  // Current positions, length units; written by solve().
+  const Nodes<MemorySpace>& nodes() const;
+  // Back to the undeformed sheet.
+  void reset(const ExecutionSpace&);
+
+  const elastic::ElementGrid& grid() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace myowave::solver

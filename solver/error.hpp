@@ -1,0 +1,18 @@
+// The two ways a run can end badly. apps/main.cpp turns them into exit status 2 and 3.
+#pragma once
+
+#include <stdexcept>
+
+namespace myowave::solver {
+
+// The input asks for something that cannot be done: exit 2.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The numerics failed: the message says time, place, state and what to do. Exit 3.
+struct NumericalFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace myowave::solver

@@ -1,0 +1,112 @@
+// The whole run: order of a step, sampling, watchers, summary. See model order in solver/README.md.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/scene.hpp"
+
+namespace myowave::solver {
+
+// Grid fields, row-major (rows, columns); nodes (element rows + 1, element columns + 1, 2).
+struct InitialState {
+  int rows = 0;
+  int columns = 0;
+  std::vector<double> V, r, Ta;
+};
+
+// A phase singularity in material coordinates (length units), charge +1 counter-clockwise.
+struct Tip {
+  double x = 0;
+  double y = 0;
+  int charge = 0;
+};
+
+// Host copies of what is shown at time t; valid only during the call.
+struct Frame {
+  double t = 0;  // t.u.
+  int rows = 0;
+  int columns = 0;
+  int element_rows = 0;     // 0 in a rigid run
+  int element_columns = 0;
+  std::span<const double> V, r, Ta;  // rows * columns
+  std::span<const double> nodes;     // (element_rows+1) * (element_columns+1) * 2, x1 then x2; empty in a rigid run
+};
+
+struct Progress {
+  double t = 0;
+  double t_end = 0;
+  std::string stage;  // "settling the spiral", "precondition 1 of 2", "run"
+  double cell_steps_per_s = 0;
+  std::int64_t newton_iterations = 0;  // in total
+  int tips = 0;                        // at the last look
+};
+
+// Where samples go. Called on the host, in time order, each at the instants the scene asks for.
+class OutputSink {
+ public:
+  virtual ~OutputSink() = default;
+  virtual void fields(const Frame&) {}
+  virtual void probes(double /*t*/, std::span<const double> /*V0,r0,Ta0,V1,...*/) {}
+  virtual void tips(double /*t*/, std::span<const Tip>) {}
+  // Relative to the loaded rest state: whole sheet, smallest and largest element.
+  virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
+  virtual void progress(const Progress&) {}
+  // True: fields() is wanted at `every` (it costs a copy to the host).
+  virtual bool wants_fields() const { return false; }
+};
+
+struct PhaseSeconds {
+  double excitation = 0, transfer = 0, mechanics = 0, observe = 0, output = 0;
+};
+
+struct MechanicsStatistics {
+  std::int64_t solves = 0, newton_iterations = 0, newton_max = 0, factorizations = 0, shifts = 0;
+  double min_J = 1;  // smallest at any corner of any element over all accepted solutions
+};
+
+struct MeanSd {
+  double mean = 0, sd = 0;
+  std::int64_t n = 0;
+};
+
+struct Observables {
+  MeanSd period;  // t.u.
+  MeanSd tips;
+  std::optional<double> breakup_tu, death_tu;
+  std::optional<std::pair<double, double>> area;        // min, max
+  std::optional<std::pair<double, double>> shortening;  // largest, at t
+};
+
+struct RunSummary {
+  std::vector<std::string> model;  // what is modelled, in words
+  std::int64_t steps = 0;          // done
+  double t = 0;                    // reached
+  PhaseSeconds phases;
+  double wall_s = 0;
+  double cell_steps_per_s = 0;  // cells * steps / wall_s
+  MechanicsStatistics mechanics;
+  Observables observables;
+};
+
+// What is modelled, in words, and the bytes that its state needs: for `check` and the memory test
+// before anything is allocated (64-bit arithmetic).
+std::vector<std::string> model_in_words(const Scene&);
+std::uint64_t memory_bytes(const Scene&);
+
+// Initial state of `rest` and `broken_front`; the other types come from apps (files, cache).
+// Errors: InputError for the other types.
+InitialState make_initial_state(const Scene&);
+
+// Runs the preconditions and then the scene. `summary` is kept current, so that it tells how far
+// the run came when NumericalFailure leaves this function.
+// Returns the final state.
+// Errors: InputError (dt past the stability bound at the start, sizes that do not fit),
+// NumericalFailure.
+InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary);
+
+}  // namespace myowave::solver

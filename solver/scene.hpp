@@ -1,0 +1,125 @@
+// What one run models, with every default resolved. Times in t.u., lengths in units of the paper
+// (dx = 0.6), stresses in kPa. The scene file's schema (apps/schema.cpp) documents and validates
+// each value; here stands only the data that the solver reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace myowave::solver {
+
+struct GridSettings {
+  int rows = 251;     // nodes along X2
+  int columns = 251;  // nodes along X1
+  double dx = 0.6;    // node spacing, length units
+};
+
+struct TimeSettings {
+  double dt = 0.02;         // explicit Euler step, t.u.
+  double t_end = 400;       // t.u.
+  double ms_per_tu = 10.0;  // display only
+};
+
+// Eqs 22a, b; Table 1 of the paper (b: see kernels/cell/aliev_panfilov.hpp).
+struct ExcitationSettings {
+  double a = 0.1;
+  double b = 0.1;
+  double k = 8.0;
+  double eps = 0.01;
+  double mu1 = 0.12;
+  double mu2 = 0.3;
+  double C_m = 1.0;
+  double D = 1.0;
+};
+
+// Eqs 22c, 23.
+struct TensionSettings {
+  std::string law = "delayed";  // "delayed" | "printed"
+  double k_Ta = 47.9;           // kPa
+  double eps_below = 1.0;       // 1/t.u., V below threshold
+  double eps_above = 0.1;       // 1/t.u., V at or above threshold
+  double threshold = 0.05;
+};
+
+enum class Load { follower, dead };
+enum class Edges { load, fixed };
+enum class MetricForm { none, conservative, expanded };
+enum class Precision { float64, float32 };
+
+struct MechanicsSettings {
+  int cells_per_element = 10;
+  double c1 = 2.0;  // kPa
+  double c2 = 6.0;  // kPa
+  Load load = Load::follower;
+  double p = 10.0;  // kN/m, positive stretches
+  Edges edges = Edges::load;
+  int interval = 80;        // steps between solves
+  double tolerance = 1e-8;  // max|R_free| / (10 kPa h)
+  bool contraction = true;  // false: Ta does not load the mechanics
+};
+
+struct Stimulus {
+  // Nodes inside; "all" is the whole sheet.
+  enum class Shape { all, disc, block };
+  double start = 0;
+  double period = 0;  // t.u.; 0: once
+  double duration = 1;
+  double amplitude = 0;  // I_s, 1/t.u.
+  std::int64_t count = 1;  // number of pulses; < 0: without end
+  Shape shape = Shape::all;
+  std::array<double, 2> center{0, 0};  // disc: column, row
+  double radius = 0;                   // disc: in node spacings, nodes at distance <= radius
+  std::array<int, 2> columns{0, 0};    // block: first and last, inclusive
+  std::array<int, 2> rows{0, 0};
+};
+
+struct Precondition {
+  double duration = 0;  // t.u.
+  bool contraction = false;
+  ExcitationSettings excitation;  // the scene's own with this table's overrides
+  TensionSettings tension;
+};
+
+struct InitialSettings {
+  enum class Type { rest, broken_front, settled_spiral, file };
+  Type type = Type::rest;
+  double width = 5;
+  double r0 = 1.5;
+  std::array<int, 2> offset{0, 0};       // [columns, rows]
+  std::array<int, 2> core_offset{0, 0};  // settled_spiral: core from the middle, [columns, rows]
+  std::string file;                      // absolute or relative to the working directory
+  std::optional<std::array<int, 2>> window;  // [row0, column0]
+  double noise = 0;        // standard deviation added to V
+  std::uint64_t seed = 0;
+  std::vector<Precondition> preconditions;
+};
+
+struct OutputSettings {
+  double every = 1;         // t.u.
+  double tips_every = 1;    // t.u.
+  double probes_every = 1;  // t.u.
+  bool frames = false;
+  bool fields = false;
+  std::vector<std::array<int, 2>> probes;  // (row, column); empty in a file: the four default ones
+  double period_from = 100;                // t.u.
+};
+
+struct Scene {
+  std::string name;
+  GridSettings grid;
+  TimeSettings time;
+  ExcitationSettings excitation;
+  TensionSettings tension;
+  std::optional<MechanicsSettings> mechanics;  // empty: rigid
+  MetricForm metric = MetricForm::conservative;  // no effect without mechanics
+  InitialSettings initial;
+  std::vector<Stimulus> stimuli;
+  Precision precision = Precision::float64;
+  OutputSettings output;
+};
+
+}  // namespace myowave::solver

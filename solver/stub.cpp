@@ -1,0 +1,2 @@
+#include "solver/equilibrium.hpp"
+#include "solver/run.hpp"
