@@ -21,10 +21,12 @@ Mesh mesh_of(const Scene& scene) {
 }
 
 bool is_on(const Stimulus& s, double t) {
-  if (t < s.start) return false;
-  if (s.period <= 0) return s.count != 0 && t < s.start + s.duration;
-  const auto pulse = static_cast<std::int64_t>(std::floor((t - s.start) / s.period));
-  return (s.count < 0 || pulse < s.count) && t - s.start - static_cast<double>(pulse) * s.period < s.duration;
+  // A step belongs to its pulse whatever way t = step dt was rounded: 1.2 - 1 is less than 0.2.
+  const double since = t - s.start + 1e-9;
+  if (since < 0) return false;
+  if (s.period <= 0) return s.count != 0 && since < s.duration;
+  const auto pulse = static_cast<std::int64_t>(std::floor(since / s.period));
+  return (s.count < 0 || pulse < s.count) && since - static_cast<double>(pulse) * s.period < s.duration;
 }
 
 bool is_inside(const Stimulus& s, int i, int j) {

@@ -84,6 +84,20 @@ TEST(ReferenceCoupled, StimulusActsInItsTimeAndPlace) {
   EXPECT_EQ(at(22, 3, 1), 0);
 }
 
+TEST(ReferenceCoupled, PulseLastsItsNumberOfSteps) {
+  solver::Scene scene = sheet();
+  solver::Stimulus pulse;
+  pulse.start = 1;
+  pulse.period = 1.4;
+  pulse.duration = 0.2;
+  pulse.count = 7;
+  pulse.amplitude = 1;
+  scene.stimuli = {pulse};
+  int steps_on = 0;
+  for (int step = 0; step < 1000; ++step) steps_on += stimulus(scene, step * 0.02)[0] > 0 ? 1 : 0;
+  EXPECT_EQ(steps_on, 7 * 10);
+}
+
 TEST(ReferenceCoupled, StretchSlowsTheWaveInMaterialCoordinates) {
   solver::Scene scene = sheet();
   scene.mechanics->contraction = false;
