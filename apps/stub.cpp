@@ -1,1 +1,0 @@
-#include "apps/run_folder.hpp"
