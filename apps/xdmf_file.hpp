@@ -1,5 +1,6 @@
-// fields.xdmf: tells a viewer (ParaView, VisIt) how to show fields.h5: V, r and Ta as a time series
-// on the deformed grid, or on the regular one of a rigid run.
+// fields.xdmf: tells a viewer (ParaView's "XDMF Reader", VisIt) how to show fields.h5: V, r and Ta as
+// a time series on the deformed grid, or on the regular one of a rigid run. (ParaView's Xdmf3 readers
+// know no part of a dataset, which is what a frame is.)
 #pragma once
 
 #include <cstddef>
@@ -20,10 +21,11 @@ class XdmfFile {
   void append(std::size_t frame, double t);
 
  private:
-  std::string slab(const char* dataset, const char* precision, bool vector, std::size_t frame) const;
+  std::string slab(const char* dataset, int precision, bool vector, std::size_t frame) const;
 
   FrameShape shape_;
   std::string fields_name_;
+  std::string grid_size_;
   AppendedFile file_;
 };
 
