@@ -78,11 +78,10 @@ DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 
-bool DirectSolver::factorize(std::span<const double> values, double shift) {
+bool DirectSolver::factorize(std::span<const double> values) {
   auto& impl = *impl_;
   impl.matrix.x = const_cast<double*>(values.data());  // only read
-  double beta[2] = {shift, 0};
-  cholmod_factorize_p(&impl.matrix, beta, nullptr, 0, impl.factor, &impl.common);
+  cholmod_factorize(&impl.matrix, impl.factor, &impl.common);
   impl.check("factorisation");
   return impl.common.status == CHOLMOD_OK && impl.factor->minor == impl.factor->n;
 }

@@ -1,4 +1,4 @@
-// Sparse Cholesky factorisation of A + shift I, of a symmetric A with a fixed pattern.
+// Sparse Cholesky factorisation of symmetric matrices of one pattern.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,10 @@ class DirectSolver {
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
-  // A + shift I = L L^T, values in the order of `column`. False: not positive definite, and there
-  // is no factor.
-  bool factorize(std::span<const double> values, double shift);
+  // A = L L^T, values in the order of `column`. False: not positive definite, and there is no factor.
+  bool factorize(std::span<const double> values);
 
-  // solution = (A + shift I)^-1 rhs with the last factor.
+  // solution = A^-1 rhs with the last factor.
   void solve(std::span<const double> rhs, std::span<double> solution);
 
   // Entries of L that the ordering needs.
