@@ -6,10 +6,11 @@
 //   Pi(x + s d) <= Pi(x) + 1e-4 s (R . d) + 1e-12 (|Pi(x)| + Pi_0),
 //
 // the last term being the rounding of Pi, which hides the decrease near the solution; Pi_0, the
-// energy of the undeformed sheet, keeps it where Pi passes through zero. mu is 0 until K is not
-// positive definite or no length is accepted; then max(4 mu, 4) kPa. After an accepted step mu/8,
-// and 0 once mu <= 1. A line search on the residual diverges on spiral states, where K is often
-// indefinite on the way.
+// energy of the undeformed sheet, keeps it where Pi passes through zero. mu is 0 until d is no descent
+// or no length is accepted; then max(4 mu, 4) kPa. After an accepted step mu/8, and 0 once mu <= 1.
+// A line search on the residual diverges on spiral states, where K is often indefinite on the way.
+// The direction of an indefinite K is a good one far from the solution (it saves a factorisation in
+// five against shifting at once); near it, it would end in a saddle, and K is shifted.
 //
 // L acts like an isotropic tension mu in the tangent: what it slows down is strain, whatever the
 // number of elements. With I in its place the motions of the sheet as a whole, whose share of K
@@ -38,6 +39,7 @@ struct NewtonSettings {
   double armijo = 1e-4;         // fraction of the linear decrease that a step must reach
   double energy_noise = 1e-12;  // relative rounding of Pi
   double energy_unit = 0;       // Pi_0, kPa x area
+  double near_solution = 1e-3;  // residual from which on an indefinite K is shifted
   double first_shift = 4;       // kPa
   double shift_growth = 4;
   double shift_decay = 8;
@@ -106,7 +108,9 @@ class Newton {
   bool step(Trial& current, double shift, NewtonReport& report) {
     ++report.factorizations;
     if (shift > 0) ++report.shifts;
-    if (!solver_.factorize(problem_.tangent(shift))) return false;
+    const Factorization factorization = solver_.factorize(problem_.tangent(shift));
+    if (factorization == Factorization::failed) return false;
+    if (factorization == Factorization::indefinite && report.residual < settings_.near_solution) return false;
     const auto residual = problem_.residual();
     direction_.resize(residual.size());
     solver_.solve(residual, direction_);
