@@ -23,6 +23,10 @@ struct Mesh {
   // 36 element + entry of the element's lower triangle.
   std::vector<int> slot_begin;
   std::vector<int> slot_source;
+
+  // By slot, the matrix of the integral of grad u : grad v: what a unit isotropic tension adds to
+  // the tangent.
+  std::vector<double> gradient_product;
 };
 
 // Components [2 n + i] that are held at their undeformed positions. Edges::load: the node in the

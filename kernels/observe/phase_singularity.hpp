@@ -64,25 +64,21 @@ KOKKOS_INLINE_FUNCTION Kokkos::pair<double, double> bilinear_root(const Corners&
   return {Kokkos::clamp(best.first, 0.0, 1.0), Kokkos::clamp(best.second, 0.0, 1.0)};
 }
 
-// Squares are passed over in blocks of so many columns where V does not cross 0.5 at all.
+// Squares are looked at in blocks of so many columns.
 inline constexpr int block_columns = 32;
 
-// Smallest and largest of two rows over columns first ... last, both included.
+// For columns first ... last (both included, at most block_columns + 1 of them) of two rows: how many
+// of the two nodes have V >= 0.5. Returns the largest V of the first row.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Kokkos::pair<Real, Real> block_extremes(const Real* a, const Real* b, int first,
-                                                               int last) {
-  Real low = a[first], high = a[first];
-#pragma omp simd reduction(min : low) reduction(max : high)
+KOKKOS_INLINE_FUNCTION Real count_high_nodes(const Real* here, const Real* above, int first, int last,
+                                             int* high) {
+  Real largest = here[first];
+#pragma omp simd reduction(max : largest)
   for (int j = first; j <= last; ++j) {
-    low = Kokkos::min(low, Kokkos::min(a[j], b[j]));
-    high = Kokkos::max(high, Kokkos::max(a[j], b[j]));
+    high[j - first] = (here[j] >= Real(0.5) ? 1 : 0) + (above[j] >= Real(0.5) ? 1 : 0);
+    largest = here[j] > largest ? here[j] : largest;
   }
-  return {low, high};
-}
-
-KOKKOS_INLINE_FUNCTION bool changes_sign(const Corners& u) {
-  const bool negative = u.value[0] < 0;
-  return (u.value[1] < 0) != negative || (u.value[2] < 0) != negative || (u.value[3] < 0) != negative;
+  return largest;
 }
 
 // Appends the singularities of all members to `found` in any order (the caller sorts); `count` is
@@ -111,13 +107,15 @@ double find_phase_singularities(const ExecutionSpace& space, const tissue::Grid&
         const int above = i + 1 < rows ? i + 1 : i;
         for (int first = 0; first < columns; first += block_columns) {
           const int last = Kokkos::min(first + block_columns, columns - 1);
-          const auto [low, high] = block_extremes(&V(m, i, 0), &V(m, above, 0), first, last);
-          largest = Kokkos::max(largest, double(high));
-          if (above == i || low >= Real(0.5) || high < Real(0.5)) continue;
+          int high[block_columns + 1];
+          const Real highest = count_high_nodes(&V(m, i, 0), &V(m, above, 0), first, last, high);
+          largest = Kokkos::max(largest, double(highest));
+          if (above == i) continue;
           for (int j = first; j < last; ++j) {
+            const int high_corners = high[j - first] + high[j - first + 1];
+            if (high_corners == 0 || high_corners == 4) continue;
             const Corners u{
                 {V(m, i, j) - 0.5, V(m, i, j + 1) - 0.5, V(m, i + 1, j + 1) - 0.5, V(m, i + 1, j) - 0.5}};
-            if (!changes_sign(u)) continue;
             const Corners v{{double(rate(m, i, j)), double(rate(m, i, j + 1)), double(rate(m, i + 1, j + 1)),
                              double(rate(m, i + 1, j))}};
             const int charge = winding_number(u, v);

@@ -1,0 +1,49 @@
+// fields.h5: the state at each frame, in datasets whose first index is the frame.
+//
+//   time   [frame]                 t.u.
+//   V, r   [frame, row, column]    dimensionless
+//   Ta     [frame, row, column]    kPa
+//   nodes  [frame, node, 2]        element nodes x1, x2, length units; node = I (element columns + 1) + J
+//   grid   [frame, row, column, 2] grid nodes x1, x2, float32, what a viewer draws V on
+//
+// A rigid run has neither nodes nor grid. Each frame is a chunk, compressed, and is flushed: a file
+// whose writer died, or whose disk is full, holds the frames before.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/frame_shape.hpp"
+#include "apps/hdf5_handle.hpp"
+#include "solver/run.hpp"
+
+namespace myowave::apps {
+
+class FieldsFile {
+ public:
+  // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
+  FieldsFile(std::filesystem::path, const FrameShape&, double ms_per_tu);
+
+  void append(const solver::Frame&);
+  std::size_t frames() const { return frames_; }
+
+ private:
+  struct Dataset {
+    Hdf5Handle id;
+    std::vector<hsize_t> frame;  // shape of one frame
+  };
+  Dataset create(const char* name, std::vector<hsize_t> frame, hid_t file_type, const char* unit,
+                 const char* description);
+  void extend(const Dataset&, hid_t memory_type, const void* values);
+  void append_datasets(const solver::Frame&);
+
+  std::filesystem::path path_;
+  FrameShape shape_;
+  Hdf5Handle file_;
+  Dataset time_, V_, r_, Ta_, nodes_, grid_;
+  std::size_t frames_ = 0;
+};
+
+}  // namespace myowave::apps

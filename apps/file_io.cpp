@@ -1,0 +1,54 @@
+#include "apps/file_io.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace myowave::apps {
+namespace {
+
+[[noreturn]] void throw_errno(const std::filesystem::path& path, int error) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::strerror(error)));
+}
+
+void write_all(std::FILE* file, std::string_view content, const std::filesystem::path& path) {
+  if (std::fwrite(content.data(), 1, content.size(), file) != content.size() || std::fflush(file) != 0) {
+    throw_errno(path, errno);
+  }
+}
+
+}  // namespace
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  std::filesystem::path temporary = path;
+  temporary += fmt::format(".{}.tmp", getpid());
+  try {
+    AppendedFile(temporary, content);
+    std::filesystem::rename(temporary, path);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw_errno(path, error.code().value());
+  } catch (const std::runtime_error&) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+}
+
+AppendedFile::AppendedFile(std::filesystem::path path, std::string_view header)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
+  if (!file_) throw_errno(path_, errno);
+  write_all(file_.get(), header, path_);
+}
+
+void AppendedFile::append(std::string_view rows) { write_all(file_.get(), rows, path_); }
+
+void AppendedFile::append_over_tail(std::string_view text, long tail) {
+  if (std::fseek(file_.get(), -tail, SEEK_END) != 0) throw_errno(path_, errno);
+  write_all(file_.get(), text, path_);
+}
+
+}  // namespace myowave::apps

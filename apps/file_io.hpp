@@ -1,0 +1,34 @@
+// Writes that tell about their failure: which file, and why.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace myowave::apps {
+
+// Writes beside the file and renames, so that a reader finds the old content or the new one.
+// Errors: std::runtime_error "cannot write FILE: reason".
+void replace_file(const std::filesystem::path&, std::string_view content);
+
+// A text that grows. Each append is handed to the system at once, so that whole rows are on disk
+// when the process dies.
+class AppendedFile {
+ public:
+  // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
+  AppendedFile(std::filesystem::path, std::string_view header);
+  void append(std::string_view rows);
+  // The same, over the last `tail` bytes of what was written.
+  void append_over_tail(std::string_view text, long tail);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+}  // namespace myowave::apps

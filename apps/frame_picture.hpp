@@ -1,0 +1,35 @@
+// A frame as a picture: V in colours on the deformed sheet with the element lines (the paper's
+// Fig 4), the time, and the bar of the colours. X1 points right, X2 up.
+#pragma once
+
+#include "apps/frame_shape.hpp"
+#include "apps/picture.hpp"
+#include "solver/run.hpp"
+
+namespace myowave::apps {
+
+class FramePicture {
+ public:
+  // The view is the same for all frames of a run and holds the sheet at its largest.
+  explicit FramePicture(const solver::Scene&);
+
+  Picture draw(const solver::Frame&) const;
+  // Where a point of the (deformed) sheet is in the picture.
+  Point to_pixel(double x1, double x2) const;
+
+ private:
+  void fill_element(Picture&, const solver::Frame&, std::span<const double> nodes, int I, int J) const;
+  void draw_lines(Picture&, std::span<const double> nodes) const;
+  void draw_labels(Picture&, double t) const;
+
+  FrameShape shape_;  // a rigid sheet is drawn as one element
+  double ms_per_tu_;
+  double view_x_, view_y_;  // lower left corner of the view, length units
+  double scale_;            // pixels a length unit
+  int view_width_, view_height_;
+};
+
+// Stretch of the sheet at rest under its edge load, at Ta = 0.
+double rest_stretch(const solver::MechanicsSettings&);
+
+}  // namespace myowave::apps

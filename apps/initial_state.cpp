@@ -1,0 +1,150 @@
+#include "apps/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "apps/state_cache.hpp"
+#include "solver/error.hpp"
+
+namespace myowave::apps {
+namespace {
+
+using solver::InitialState;
+using solver::InputError;
+
+// The protocol of the settled spiral: a broken front on a sheet where the spiral stays whole at
+// b = 0.11, followed until it rotates about one place.
+constexpr int protocol_nodes = 251;
+constexpr double protocol_b = 0.11;
+constexpr double protocol_duration = 1080;  // t.u.
+// Node of the core at its end.
+constexpr int core_row = 81;
+constexpr int core_column = 131;
+
+// Passes on the progress of a run that only prepares another one.
+class SettlingProgress final : public solver::OutputSink {
+ public:
+  explicit SettlingProgress(solver::OutputSink& progress) : progress_(progress) {}
+  void progress(const solver::Progress& p) override {
+    solver::Progress told = p;
+    told.stage = "settling the spiral";
+    progress_.progress(told);
+  }
+
+ private:
+  solver::OutputSink& progress_;
+};
+
+solver::Scene settling_scene(int rows, int columns) {
+  solver::Scene scene;
+  scene.name = "settled_spiral";
+  scene.grid.rows = rows;
+  scene.grid.columns = columns;
+  scene.excitation.b = protocol_b;
+  scene.time.t_end = protocol_duration;
+  scene.initial.type = solver::InitialSettings::Type::broken_front;
+  scene.output.every = scene.output.tips_every = scene.output.probes_every = protocol_duration;
+  return scene;
+}
+
+// Every number that the result depends on.
+std::string definition(const solver::Scene& scene) {
+  const auto& [a, b, k, eps, mu1, mu2, C_m, D] = scene.excitation;
+  const auto& [law, k_Ta, eps_below, eps_above, threshold] = scene.tension;
+  const auto& [rows, columns, dx] = scene.grid;
+  return fmt::format(
+      "settled spiral: {} x {} nodes, dx {}, dt {}, t {}; a {}, b {}, k {}, eps {}, mu1 {}, mu2 {}, C_m {}, "
+      "D {}; "
+      "k_Ta {}, eps_T {} {} at {}; broken front {} {} [{}, {}]",
+      rows, columns, dx, scene.time.dt, scene.time.t_end, a, b, k, eps, mu1, mu2, C_m, D, k_Ta, eps_below,
+      eps_above, threshold, scene.initial.width, scene.initial.r0, scene.initial.offset[0],
+      scene.initial.offset[1]);
+}
+
+InitialState settle(int rows, int columns, solver::OutputSink& progress) {
+  const solver::Scene scene = settling_scene(rows, columns);
+  const std::string text = definition(scene);
+  return cached_state(cached_state_path("settled_spiral", text), text, [&] {
+    SettlingProgress told(progress);
+    solver::RunSummary summary;
+    return solver::run(scene, solver::make_initial_state(scene), told, summary);
+  });
+}
+
+InitialState cut(const InitialState& whole, int row0, int column0, int rows, int columns) {
+  InitialState part{rows, columns, {}, {}, {}};
+  for (auto field : {&InitialState::V, &InitialState::r, &InitialState::Ta}) {
+    for (int i = 0; i < rows; ++i) {
+      const auto begin = (whole.*field).begin() + std::ptrdiff_t(row0 + i) * whole.columns + column0;
+      (part.*field).insert((part.*field).end(), begin, begin + columns);
+    }
+  }
+  return part;
+}
+
+InitialState settled_spiral(const solver::Scene& scene, solver::OutputSink& progress) {
+  const auto& [rows, columns, dx] = scene.grid;
+  if (dx != solver::GridSettings{}.dx) {
+    throw InputError(
+        fmt::format("initial.type = \"settled_spiral\" is defined at grid.dx = {}, not {}: a spiral of "
+                    "another dx starts from \"broken_front\" or a \"file\"",
+                    solver::GridSettings{}.dx, dx));
+  }
+  const auto [column_offset, row_offset] = scene.initial.core_offset;
+  const int row0 = core_row - (rows - 1) / 2 - row_offset;
+  const int column0 = core_column - (columns - 1) / 2 - column_offset;
+  const auto inside = [](int first, int count) { return first >= 0 && first + count <= protocol_nodes; };
+  if (inside(row0, rows) && inside(column0, columns)) {
+    return cut(settle(protocol_nodes, protocol_nodes, progress), row0, column0, rows, columns);
+  }
+  if (column_offset != 0 || row_offset != 0) {
+    throw InputError(fmt::format(
+        "initial.core_offset = [{}, {}]: a window of {} x {} nodes with the core there leaves "
+        "the settled sheet of {} x {} (core at row {}, column {})",
+        column_offset, row_offset, rows, columns, protocol_nodes, protocol_nodes, core_row, core_column));
+  }
+  // A sheet that large has the protocol run on itself; the core is where it settles.
+  return settle(rows, columns, progress);
+}
+
+InitialState from_type(const solver::Scene& scene, solver::OutputSink& progress) {
+  using Type = solver::InitialSettings::Type;
+  switch (scene.initial.type) {
+    case Type::rest:
+    case Type::broken_front:
+      return solver::make_initial_state(scene);
+    case Type::settled_spiral:
+      return settled_spiral(scene, progress);
+    case Type::file:
+      return read_state(scene.initial.file, scene.grid.rows, scene.grid.columns, scene.initial.window);
+  }
+  std::abort();
+}
+
+// Normal deviates by Box and Muller from uniform ones in (0, 1]: the standard fixes the engine's
+// numbers but leaves std::normal_distribution to each library.
+void add_noise(std::vector<double>& V, double sd, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  const auto uniform = [&engine] { return (double(engine() >> 11) + 1) * 0x1p-53; };
+  for (std::size_t n = 0; n < V.size(); n += 2) {
+    const double radius = sd * std::sqrt(-2 * std::log(uniform()));
+    const double angle = 2 * std::numbers::pi * uniform();
+    V[n] += radius * std::cos(angle);
+    if (n + 1 < V.size()) V[n + 1] += radius * std::sin(angle);
+  }
+}
+
+}  // namespace
+
+InitialState resolve_initial_state(const solver::Scene& scene, solver::OutputSink& progress) {
+  InitialState state = from_type(scene, progress);
+  if (scene.initial.noise > 0) add_noise(state.V, scene.initial.noise, scene.initial.seed);
+  return state;
+}
+
+}  // namespace myowave::apps

@@ -1,0 +1,155 @@
+#include "apps/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "apps/fields_file.hpp"
+#include "apps/file_io.hpp"
+#include "apps/frame_picture.hpp"
+#include "apps/manifest.hpp"
+#include "apps/progress_line.hpp"
+#include "apps/summary_file.hpp"
+#include "apps/xdmf_file.hpp"
+#include "solver/error.hpp"
+
+namespace myowave::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What an earlier run may have left. Nothing else in the folder is touched.
+constexpr std::array<const char*, 7> file_names{"summary.json", "manifest.json", "fields.h5", "fields.xdmf",
+                                                "probes.csv",   "tips.csv",      "area.csv"};
+
+bool is_frame(const fs::path& path) {
+  return path.extension() == ".png" && path.filename().string().starts_with("frame_");
+}
+
+void remove_results(const fs::path& folder) {
+  for (const char* name : file_names) fs::remove(folder / name);
+  const fs::path frames = folder / "frames";
+  if (!fs::is_directory(frames)) return;
+  for (const auto& entry : fs::directory_iterator(frames)) {
+    if (is_frame(entry.path())) fs::remove(entry.path());
+  }
+}
+
+// Errors: InputError.
+void prepare_folder(const fs::path& folder, bool force) {
+  try {
+    if (!fs::exists(folder)) {
+      fs::create_directories(folder);
+      return;
+    }
+    if (!fs::is_directory(folder)) {
+      throw solver::InputError(
+          fmt::format("{} is a file; the results need a folder: choose another with --out", folder.string()));
+    }
+    if (fs::is_empty(folder)) return;
+    if (!force) {
+      throw solver::InputError(
+          fmt::format("the result folder {} is there already: choose another with --out, or replace its "
+                      "results with --force",
+                      folder.string()));
+    }
+    remove_results(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw solver::InputError(
+        fmt::format("cannot make the result folder {}: {}", folder.string(), error.code().message()));
+  }
+}
+
+std::string probes_header(const solver::OutputSettings& output) {
+  // Without a list the solver looks at its four default probes.
+  const std::size_t count = output.probes.empty() ? 4 : output.probes.size();
+  std::string header = "t";
+  for (std::size_t n = 0; n < count; ++n) header += fmt::format(",V{0},r{0},Ta{0}", n);
+  return header + '\n';
+}
+
+}  // namespace
+
+struct RunFolder::Impl {
+  Impl(fs::path path, const solver::Scene& scene, bool quiet)
+      : folder(std::move(path)),
+        shape(frame_shape(scene)),
+        probes(folder / "probes.csv", probes_header(scene.output)),
+        tips(folder / "tips.csv", "t,x,y,charge\n"),
+        area(folder / "area.csv", "t,area,area_min,area_max\n"),
+        progress(scene.time.ms_per_tu, shape.deforms(), quiet) {
+    if (scene.output.fields) {
+      fields.emplace(folder / "fields.h5", shape, scene.time.ms_per_tu);
+      xdmf.emplace(folder / "fields.xdmf", shape, "fields.h5");
+    }
+    if (scene.output.frames) {
+      fs::create_directories(folder / "frames");
+      picture.emplace(scene);
+    }
+  }
+
+  fs::path folder;
+  FrameShape shape;
+  AppendedFile probes, tips, area;
+  std::optional<FieldsFile> fields;
+  std::optional<XdmfFile> xdmf;
+  std::optional<FramePicture> picture;
+  std::size_t pictures = 0;
+  ProgressLine progress;
+};
+
+RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, bool force, bool quiet) {
+  prepare_folder(folder, force);
+  try {
+    impl_ = std::make_unique<Impl>(std::move(folder), scene, quiet);
+  } catch (const std::runtime_error& error) {
+    throw solver::InputError(error.what());
+  }
+}
+
+RunFolder::~RunFolder() = default;
+
+void RunFolder::write_manifest(const nlohmann::json& effective_configuration) {
+  replace_file(impl_->folder / "manifest.json", manifest_json(effective_configuration).dump(2) + '\n');
+}
+
+void RunFolder::write_summary(const solver::RunSummary& summary, const std::optional<std::string>& failure) {
+  impl_->progress.end();
+  replace_file(impl_->folder / "summary.json",
+               summary_json(summary, impl_->shape.deforms(), failure).dump(2) + '\n');
+}
+
+void RunFolder::fields(const solver::Frame& frame) {
+  if (impl_->fields) {
+    impl_->fields->append(frame);
+    impl_->xdmf->append(impl_->fields->frames() - 1, frame.t);
+  }
+  if (impl_->picture) {
+    const auto name = fmt::format("frame_{:05}.png", impl_->pictures++);
+    replace_file(impl_->folder / "frames" / name, impl_->picture->draw(frame).png());
+  }
+}
+
+void RunFolder::probes(double t, std::span<const double> values) {
+  impl_->probes.append(fmt::format("{},{}\n", t, fmt::join(values, ",")));
+}
+
+void RunFolder::tips(double t, std::span<const solver::Tip> tips) {
+  std::string rows;
+  for (const auto& tip : tips) rows += fmt::format("{},{},{},{}\n", t, tip.x, tip.y, tip.charge);
+  impl_->tips.append(rows);
+}
+
+void RunFolder::area(double t, double total, double min, double max) {
+  impl_->area.append(fmt::format("{},{},{},{}\n", t, total, min, max));
+}
+
+void RunFolder::progress(const solver::Progress& progress) { impl_->progress.show(progress); }
+
+bool RunFolder::wants_fields() const { return impl_->fields || impl_->picture; }
+
+}  // namespace myowave::apps

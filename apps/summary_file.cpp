@@ -1,0 +1,59 @@
+#include "apps/summary_file.hpp"
+
+#include <cmath>
+
+namespace myowave::apps {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json number(const std::optional<double>& value) { return value ? number(*value) : json(nullptr); }
+
+// A mean of nothing is none; so is the spread of a single value.
+json mean(const solver::MeanSd& m) { return m.n > 0 ? number(m.mean) : json(nullptr); }
+json sd(const solver::MeanSd& m) { return m.n > 1 ? number(m.sd) : json(nullptr); }
+
+json pair(const std::optional<std::pair<double, double>>& values, const char* first, const char* second) {
+  if (!values) return nullptr;
+  return {{first, number(values->first)}, {second, number(values->second)}};
+}
+
+json mechanics(const solver::MechanicsStatistics& m) {
+  return {{"solves", m.solves},         {"newton_iterations", m.newton_iterations},
+          {"newton_max", m.newton_max}, {"factorizations", m.factorizations},
+          {"shifts", m.shifts},         {"min_J", number(m.min_J)}};
+}
+
+json observables(const solver::Observables& o) {
+  return {{"period", {{"mean", mean(o.period)}, {"sd", sd(o.period)}, {"n", o.period.n}}},
+          {"tips", {{"mean", mean(o.tips)}, {"sd", sd(o.tips)}}},
+          {"breakup_tu", number(o.breakup_tu)},
+          {"death_tu", number(o.death_tu)},
+          {"area", pair(o.area, "min", "max")},
+          {"shortening", pair(o.shortening, "max", "t")}};
+}
+
+}  // namespace
+
+json summary_json(const solver::RunSummary& summary, bool deforms,
+                  const std::optional<std::string>& failure) {
+  const auto& phases = summary.phases;
+  return {{"model", summary.model},
+          {"steps", summary.steps},
+          {"t", number(summary.t)},
+          {"failure", failure ? json(*failure) : json(nullptr)},
+          {"phases",
+           {{"excitation", number(phases.excitation)},
+            {"transfer", number(phases.transfer)},
+            {"mechanics", number(phases.mechanics)},
+            {"observe", number(phases.observe)},
+            {"output", number(phases.output)}}},
+          {"wall_s", number(summary.wall_s)},
+          {"throughput", {{"cell_steps_per_s", number(summary.cell_steps_per_s)}}},
+          {"mechanics", deforms ? mechanics(summary.mechanics) : json(nullptr)},
+          {"observables", observables(summary.observables)}};
+}
+
+}  // namespace myowave::apps

@@ -1,0 +1,17 @@
+// summary.json: what a run did and found; its keys are a contract (apps/README.md).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "solver/run.hpp"
+
+namespace myowave::apps {
+
+// Keys keep the order they are written in. null stands where there is nothing to tell; nan and inf
+// never appear. `deforms`: false leaves `mechanics` null.
+nlohmann::ordered_json summary_json(const solver::RunSummary&, bool deforms,
+                                    const std::optional<std::string>& failure);
+
+}  // namespace myowave::apps
