@@ -1,1 +1,100 @@
-int main() { return 0; }
+// The `myowave` command: reads the command line, calls apps/commands.hpp, turns errors into exit
+// status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "apps/commands.hpp"
+#include "myowave_version.hpp"
+#include "solver/error.hpp"
+
+namespace {
+
+using namespace myowave;
+
+void add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& overrides) {
+  command.add_option("SCENE", scene, "Scene file (TOML); `myowave describe` lists its keys")->required();
+  command
+      .add_option("--set", overrides,
+                  "Value in place of the file's: section.key=value. Strings need no quotes. Repeat for more")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+}
+
+int guarded(const std::function<void()>& command) {
+  try {
+    command();
+    return 0;
+  } catch (const solver::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  } catch (const solver::NumericalFailure& error) {
+    fmt::print(stderr, "myowave: the numerics failed: {}\n", error.what());
+    return 3;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "myowave: out of memory\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "myowave: {}\n", error.what());
+  }
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Reaction-diffusion-mechanics of excitable tissue (Nash & Panfilov 2004)", "myowave"};
+  app.set_version_flag("--version", fmt::format("myowave {} ({})", version, git_hash));
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed.\n"
+      "Example: myowave run apps/scenes/quickstart.toml --set excitation.mu1=0.1 --until 50");
+
+  apps::RunRequest request;
+  CLI::App* run = app.add_subcommand("run", "Run a scene and write its results into a folder");
+  add_scene(*run, request.scene, request.overrides);
+  run->add_option("--out", request.out, "Result folder; without it out/<scene> in the working directory")
+      ->type_name("DIR");
+  run->add_option("--until", request.until, "End at this time (t.u.) in place of time.t_end")->type_name("T");
+  run->add_flag("--force", request.force, "Write into a folder that already holds results");
+  run->add_flag("--quiet", request.quiet, "No progress and no result on the terminal");
+
+  CLI::App* check =
+      app.add_subcommand("check", "Say what a scene models, its memory and its time; write nothing");
+  add_scene(*check, request.scene, request.overrides);
+
+  std::string section;
+  bool markdown = false;
+  CLI::App* describe = app.add_subcommand("describe", "Print the reference of scene files");
+  describe->add_option("SECTION", section, "Only this section, for example mechanics");
+  describe->add_flag("--markdown", markdown, "All sections as the Markdown tables of apps/README.md");
+
+  CLI::App* info =
+      app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "myowave: {}\n", error.what());
+    const CLI::App* near = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+    fmt::print(stderr, "Run `{} --help` for what can be asked.\n",
+               near == &app ? "myowave" : "myowave " + near->get_name());
+    return 2;
+  }
+
+  return guarded([&] {
+    if (run->parsed()) apps::run(request);
+    if (check->parsed()) apps::check(request.scene, request.overrides);
+    if (describe->parsed()) apps::describe(section, markdown);
+    if (info->parsed()) apps::info();
+  });
+}

@@ -30,7 +30,7 @@ add_custom_target(myowave_revision
           -DOUTPUT=${PROJECT_BINARY_DIR}/generated/myowave_version.hpp
           -P ${PROJECT_SOURCE_DIR}/cmake/Revision.cmake
   BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/myowave_version.hpp
-  COMMENT "")
+  COMMENT "Looking up the git revision")
 add_library(myowave_version INTERFACE)
 add_dependencies(myowave_version myowave_revision)
 target_include_directories(myowave_version INTERFACE ${PROJECT_BINARY_DIR}/generated)

@@ -15,11 +15,11 @@ namespace myowave::solver {
 struct SolveReport {
   std::int64_t iterations = 0;
   std::int64_t factorizations = 0;
-  std::int64_t shifts = 0;     // factorisations of K + mu I
+  std::int64_t shifts = 0;      // factorisations of K + mu I
   std::int64_t ramp_steps = 0;  // 0: Ta was applied at once
-  double residual = 0;         // max|R_free| / (10 kPa h) at the end
-  double energy = 0;           // Pi at the end, kPa x area
-  double min_J = 0;            // smallest det F at any corner of any element
+  double residual = 0;          // max|R_free| / (10 kPa h) at the end
+  double energy = 0;            // Pi at the end, kPa x area
+  double min_J = 0;             // smallest det F at any corner of any element
 };
 
 template <class ExecutionSpace>

@@ -31,10 +31,11 @@ struct Frame {
   double t = 0;  // t.u.
   int rows = 0;
   int columns = 0;
-  int element_rows = 0;     // 0 in a rigid run
+  int element_rows = 0;  // 0 in a rigid run
   int element_columns = 0;
   std::span<const double> V, r, Ta;  // rows * columns
-  std::span<const double> nodes;     // (element_rows+1) * (element_columns+1) * 2, x1 then x2; empty in a rigid run
+  std::span<const double>
+      nodes;  // (element_rows+1) * (element_columns+1) * 2, x1 then x2; empty in a rigid run
 };
 
 struct Progress {
@@ -86,9 +87,10 @@ struct RunSummary {
   std::vector<std::string> model;  // what is modelled, in words
   std::int64_t steps = 0;          // done
   double t = 0;                    // reached
-  PhaseSeconds phases;
-  double wall_s = 0;
-  double cell_steps_per_s = 0;  // cells * steps / wall_s
+  PhaseSeconds phases;             // of the scene itself, preconditions apart
+  double wall_s = 0;               // likewise
+  double precondition_s = 0;
+  double cell_steps_per_s = 0;  // nodes * steps / wall_s
   MechanicsStatistics mechanics;
   Observables observables;
 };

@@ -68,7 +68,7 @@ struct Stimulus {
   double start = 0;
   double period = 0;  // t.u.; 0: once
   double duration = 1;
-  double amplitude = 0;  // I_s, 1/t.u.
+  double amplitude = 0;    // I_s, 1/t.u.
   std::int64_t count = 1;  // number of pulses; < 0: without end
   Shape shape = Shape::all;
   std::array<double, 2> center{0, 0};  // disc: column, row
@@ -89,11 +89,11 @@ struct InitialSettings {
   Type type = Type::rest;
   double width = 5;
   double r0 = 1.5;
-  std::array<int, 2> offset{0, 0};       // [columns, rows]
-  std::array<int, 2> core_offset{0, 0};  // settled_spiral: core from the middle, [columns, rows]
-  std::string file;                      // absolute or relative to the working directory
+  std::array<int, 2> offset{0, 0};           // [columns, rows]
+  std::array<int, 2> core_offset{0, 0};      // settled_spiral: core from the middle, [columns, rows]
+  std::string file;                          // absolute or relative to the working directory
   std::optional<std::array<int, 2>> window;  // [row0, column0]
-  double noise = 0;        // standard deviation added to V
+  double noise = 0;                          // standard deviation added to V
   std::uint64_t seed = 0;
   std::vector<Precondition> preconditions;
 };
@@ -114,7 +114,7 @@ struct Scene {
   TimeSettings time;
   ExcitationSettings excitation;
   TensionSettings tension;
-  std::optional<MechanicsSettings> mechanics;  // empty: rigid
+  std::optional<MechanicsSettings> mechanics;    // empty: rigid
   MetricForm metric = MetricForm::conservative;  // no effect without mechanics
   InitialSettings initial;
   std::vector<Stimulus> stimuli;

@@ -1,0 +1,32 @@
+// What each subcommand of `myowave` does. Errors leave as exceptions; apps/main.cpp turns them into
+// messages and exit status.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace myowave::apps {
+
+struct RunRequest {
+  std::string scene;
+  std::optional<std::string> out;  // absent: out/<scene name> in the working directory
+  std::optional<double> until;     // t.u., in place of time.t_end
+  std::vector<std::string> overrides;
+  bool force = false;
+  bool quiet = false;
+};
+
+// Errors: InputError; NumericalFailure, after what was computed is on disk.
+void run(const RunRequest&);
+
+// Says what the scene models, the memory and the time it takes. Writes nothing.
+// Errors: InputError.
+void check(const std::string& scene, const std::vector<std::string>& overrides);
+
+// Errors: InputError for a section that does not exist.
+void describe(const std::string& section, bool markdown);
+
+void info();
+
+}  // namespace myowave::apps

@@ -1,0 +1,41 @@
+#include "apps/memory.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "solver/error.hpp"
+#include "solver/run.hpp"
+
+namespace myowave::apps {
+
+std::optional<std::uint64_t> free_memory() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string name, unit;
+  for (std::uint64_t kibibytes = 0; meminfo >> name >> kibibytes; std::getline(meminfo, unit)) {
+    if (name == "MemAvailable:") return kibibytes * 1024;
+  }
+  return std::nullopt;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  constexpr std::array<std::string_view, 7> units{"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < units.size(); ++unit) value /= 1024;
+  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} {}", value, units[unit]);
+}
+
+void require_memory(const solver::Scene& scene) {
+  const std::uint64_t needed = solver::memory_bytes(scene);
+  const std::optional<std::uint64_t> free = free_memory();
+  if (!free || needed <= *free) return;
+  throw solver::InputError(
+      fmt::format("scene \"{}\" ({} x {} nodes) needs {} of memory and {} are free; take a smaller grid.n, "
+                  "or close other programs",
+                  scene.name, scene.grid.rows, scene.grid.columns, bytes_text(needed), bytes_text(*free)));
+}
+
+}  // namespace myowave::apps

@@ -1,0 +1,829 @@
+#include "apps/scene_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "apps/schema.hpp"
+#include "solver/error.hpp"
+
+namespace myowave::apps {
+namespace {
+
+using solver::InputError;
+using solver::Scene;
+
+constexpr std::string_view override_mark = "--set ";
+
+bool is_override(const toml::source_region& where) {
+  return where.path && where.path->starts_with(override_mark);
+}
+
+// Collects everything that is wrong, in the order of the file and then of the command line.
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  void add(const toml::source_region& where, const std::string& message) {
+    if (is_override(where)) {
+      lines_.emplace(true, 0, 0, fmt::format("{}: {}", *where.path, message));
+    } else if (where.begin) {
+      lines_.emplace(false, where.begin.line, where.begin.column,
+                     fmt::format("{}:{}:{}: {}", file_, where.begin.line, where.begin.column, message));
+    } else {
+      lines_.emplace(false, 0, 0, fmt::format("{}: {}", file_, message));
+    }
+  }
+
+  void add_override(std::string_view key, const std::string& message) {
+    lines_.emplace(true, 0, 0, fmt::format("{}{}: {}", override_mark, key, message));
+  }
+
+  void throw_if_any() const {
+    if (lines_.empty()) return;
+    std::string text;
+    for (const auto& line : lines_) text += (text.empty() ? "" : "\n") + std::get<3>(line);
+    throw InputError(text);
+  }
+
+ private:
+  std::string file_;
+  std::set<std::tuple<bool, unsigned, unsigned, std::string>> lines_;
+};
+
+std::string hint(std::string_view meant) {
+  return meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string result;
+  for (const char letter : text.substr(0, longest)) {
+    result += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? '?' : letter;
+  }
+  return result + (text.size() > longest ? "..." : "");
+}
+
+// A value as a message shows it.
+std::string shown(const toml::node& node) {
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", printable(text->get()));
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* array = node.as_array()) return fmt::format("an array of {}", array->size());
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+// What a value of this kind has to be, in words.
+std::string requirement(const Key& key) {
+  const std::string range = range_text(key.kind);
+  std::string text;
+  if (std::holds_alternative<Number>(key.kind)) {
+    text = range.empty() ? "a finite number" : "a number " + range;
+  } else if (std::holds_alternative<Integer>(key.kind)) {
+    text = range.empty() ? "an integer" : "an integer " + range;
+  } else if (std::holds_alternative<Path>(key.kind)) {
+    text = "a path in quotes";
+  } else if (std::holds_alternative<Size>(key.kind)) {
+    text = fmt::format("an {}, each {}", type_text(key.kind), range);
+  } else {
+    text = type_text(key.kind) + (range.empty() ? "" : ", each " + range);
+  }
+  return key.unit.empty() ? text : fmt::format("{} ({})", text, key.unit);
+}
+
+std::optional<double> number_in(const toml::node& node, const Range& range) {
+  if (!node.is_number()) return std::nullopt;
+  const double value = *node.value<double>();
+  return std::isfinite(value) && range.contains(value) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<std::int64_t> integer_in(const toml::node& node, const Range& range) {
+  const auto* integer = node.as_integer();
+  return integer != nullptr && range.contains(static_cast<double>(integer->get()))
+             ? std::optional(integer->get())
+             : std::nullopt;
+}
+
+constexpr Range int_range{.low = std::numeric_limits<int>::min(), .high = std::numeric_limits<int>::max()};
+
+std::optional<std::array<int, 2>> int_pair(const toml::node* node, const Range& range = int_range) {
+  const auto* array = node == nullptr ? nullptr : node->as_array();
+  if (array == nullptr || array->size() != 2) return std::nullopt;
+  const auto first = integer_in(*array->get(0), range), second = integer_in(*array->get(1), range);
+  if (!first || !second) return std::nullopt;
+  return std::array{static_cast<int>(*first), static_cast<int>(*second)};
+}
+
+// Reads tables against the schema into a Scene.
+class SceneReader {
+ public:
+  SceneReader(const toml::table& root, const std::filesystem::path& file, Problems& problems)
+      : root_(root), folder_(file.parent_path()), problems_(problems) {
+    scene_.name = file.stem().string();
+  }
+
+  Scene read() {
+    read_root();
+    sheet_known_ = fine({"grid.n"});
+    check_time();
+    check_tension("tension", scene_.tension);
+    check_mechanics();
+    check_initial();
+    check_preconditions();
+    check_stimuli();
+    check_output();
+    return std::move(scene_);
+  }
+
+ private:
+  // ---- tables -------------------------------------------------------------------------------
+
+  void read_root() {
+    for (const auto& [name, node] : root_) {
+      if (const Section* section = find_section(name.str());
+          section == nullptr || section->name.find('.') != std::string_view::npos) {
+        unknown_section(name);
+      }
+    }
+    for (const Section& section : schema()) {
+      if (section.name == "initial.precondition") continue;  // after [tension], whose values it starts from
+      const toml::node* node = root_.get(section.name);
+      if (node != nullptr) read_section(section, *node);
+    }
+    if (const toml::node* node = root_.at_path("initial.precondition").node()) {
+      read_section(*find_section("initial.precondition"), *node);
+    }
+  }
+
+  void unknown_section(const toml::key& name) {
+    std::vector<std::string_view> names;
+    for (const Section& section : schema()) {
+      if (find_key(section, name.str()) != nullptr && section.inherits.empty()) {
+        problems_.add(name.source(),
+                      fmt::format("\"{0}\" stands outside of its section; did you mean \"{1}.{0}\"?",
+                                  printable(name.str()), section.name));
+        return;
+      }
+      if (section.name.find('.') == std::string_view::npos) names.push_back(section.name);
+    }
+    problems_.add(name.source(), fmt::format("unknown section \"{}\"{}", printable(name.str()),
+                                             hint(did_you_mean(name.str(), names))));
+  }
+
+  void read_section(const Section& section, const toml::node& node) {
+    const std::string name(section.name);
+    given_[name] = &node;
+    if (const auto* table = node.as_table()) {
+      read_element(section, *table, name);
+      return;
+    }
+    const auto* array = node.as_array();
+    if (!section.repeated || array == nullptr) {
+      bad(name, node, section.repeated ? "a table or an array of tables" : "a table");
+      return;
+    }
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      const std::string path = fmt::format("{}.{}", name, i);
+      given_[path] = array->get(i);
+      if (const auto* table = array->get(i)->as_table()) {
+        read_element(section, *table, path);
+      } else {
+        bad(path, *array->get(i), "a table");
+      }
+    }
+  }
+
+  void read_element(const Section& section, const toml::table& table, const std::string& path) {
+    if (section.name == "stimulus") {
+      solver::Stimulus stimulus;
+      read_keys(section, table, path, Target(scene_, stimulus));
+      // A period asks for more than one pulse.
+      if (!table.contains("count") && stimulus.period > 0) stimulus.count = -1;
+      scene_.stimuli.push_back(stimulus);
+      stimulus_paths_.push_back(path);
+    } else if (section.name == "initial.precondition") {
+      solver::Precondition precondition;
+      read_keys(section, table, path, Target(scene_, precondition));
+      scene_.initial.preconditions.push_back(precondition);
+      precondition_paths_.push_back(path);
+    } else if (section.name == "mechanics") {
+      scene_.mechanics.emplace();
+      read_keys(section, table, path, Target(scene_));
+      if (table["on"].value<bool>() == false) scene_.mechanics.reset();
+    } else {
+      read_keys(section, table, path, Target(scene_));
+    }
+  }
+
+  void read_keys(const Section& section, const toml::table& table, const std::string& path, Target target) {
+    for (const auto& [name, node] : table) {
+      if (find_key(section, name.str()) == nullptr &&
+          find_section(path + "." + std::string(name.str())) == nullptr) {
+        unknown_key(section, name, path);
+      }
+    }
+    for (std::string_view other : section.inherits) {
+      const Section& whole = *find_section(other);
+      const toml::table* scene_table = root_[other].as_table();
+      for (const Key& key : whole.keys) {
+        // What the table does not name is as in the scene.
+        if (const toml::node* node = table.get(key.name)) {
+          read_value(key, *node, fmt::format("{}.{}", path, key.name), target);
+        } else if (const toml::node* own = scene_table == nullptr ? nullptr : scene_table->get(key.name)) {
+          read_value(key, *own, fmt::format("{}.{}", other, key.name), target);
+        }
+      }
+    }
+    for (const Key& key : section.keys) {
+      if (const toml::node* node = table.get(key.name)) {
+        read_value(key, *node, fmt::format("{}.{}", path, key.name), target);
+      } else if (key.required) {
+        problems_.add(table.source(), fmt::format("{}.{} is missing: {}", path, key.name, requirement(key)));
+      }
+    }
+  }
+
+  void unknown_key(const Section& section, const toml::key& name, const std::string& path) {
+    std::vector<std::string_view> names;
+    for (const Key& key : section.keys) names.push_back(key.name);
+    for (std::string_view other : section.inherits) {
+      for (const Key& key : find_section(other)->keys) names.push_back(key.name);
+    }
+    if (section.name == "initial") names.push_back("precondition");
+    std::string help = hint(did_you_mean(name.str(), names));
+    if (help.empty()) {
+      for (const Section& other : schema()) {
+        if (other.inherits.empty() && find_key(other, name.str()) != nullptr) {
+          help = fmt::format("; it is a key of [{}]", other.name);
+          break;
+        }
+      }
+    }
+    if (help.empty()) help = fmt::format("; keys: {}", fmt::join(names, ", "));
+    problems_.add(name.source(),
+                  fmt::format("unknown key \"{}\" in [{}]{}", printable(name.str()), path, help));
+  }
+
+  // ---- values -------------------------------------------------------------------------------
+
+  void bad(const std::string& path, const toml::node& node, const std::string& required,
+           const std::string& help = "") {
+    wrong_.insert(path);
+    problems_.add(node.source(), fmt::format("{} must be {}, not {}{}", path, required, shown(node), help));
+  }
+
+  void read_value(const Key& key, const toml::node& node, const std::string& path, Target& target) {
+    given_[path] = &node;
+    const auto read = [&](const auto& kind) { return set(kind, node, path, target); };
+    if (std::visit(read, key.kind) || wrong_.contains(path)) return;
+    std::string help;
+    const auto* text = node.as_string();
+    if (const auto* choice = std::get_if<Choice>(&key.kind); choice != nullptr && text != nullptr) {
+      help = hint(did_you_mean(text->get(), choice->names));
+    }
+    bad(path, node, requirement(key), help);
+  }
+
+  // Each returns false where the value is not what its kind asks for.
+  bool set(const Number& kind, const toml::node& node, const std::string&, Target& target) {
+    const auto value = number_in(node, kind.range);
+    if (value) kind.set(target, *value);
+    return value.has_value();
+  }
+
+  bool set(const Integer& kind, const toml::node& node, const std::string&, Target& target) {
+    const auto value = integer_in(node, kind.range);
+    if (value) kind.set(target, *value);
+    return value.has_value();
+  }
+
+  bool set(const Flag& kind, const toml::node& node, const std::string&, Target& target) {
+    const auto value = node.value_exact<bool>();
+    if (value && kind.set) kind.set(target, *value);
+    return value.has_value();
+  }
+
+  bool set(const Choice& kind, const toml::node& node, const std::string&, Target& target) {
+    const auto value = node.value_exact<std::string_view>();
+    const auto found = value ? std::ranges::find(kind.names, *value) : kind.names.end();
+    if (found == kind.names.end()) return false;
+    kind.set(target, found - kind.names.begin());
+    return true;
+  }
+
+  bool set(const Path& kind, const toml::node& node, const std::string&, Target& target) {
+    const auto value = node.value_exact<std::string>();
+    if (!value || value->empty()) return false;
+    const std::filesystem::path given(*value);
+    kind.set(target, (is_override(node.source()) ? given : folder_ / given).string());
+    return true;
+  }
+
+  bool set(const Pair& kind, const toml::node& node, const std::string&, Target& target) {
+    const auto value = int_pair(&node, kind.range);
+    if (value) kind.set(target, *value);
+    return value.has_value();
+  }
+
+  bool set(const Size& kind, const toml::node& node, const std::string&, Target& target) {
+    std::optional<std::array<int, 2>> size = int_pair(&node, kind.range);
+    if (const auto side = integer_in(node, kind.range))
+      size = std::array{static_cast<int>(*side), static_cast<int>(*side)};
+    if (size) std::tie(target.scene.grid.rows, target.scene.grid.columns) = std::tuple_cat(*size);
+    return size.has_value();
+  }
+
+  bool set(const Probes&, const toml::node& node, const std::string&, Target& target) {
+    const auto* array = node.as_array();
+    if (array == nullptr) return false;
+    target.scene.output.probes.clear();
+    for (const toml::node& element : *array) {
+      const auto probe = int_pair(&element);
+      if (!probe) return false;
+      target.scene.output.probes.push_back(*probe);
+    }
+    return true;
+  }
+
+  bool set(const Region&, const toml::node& node, const std::string& path, Target& target) {
+    using Shape = solver::Stimulus::Shape;
+    solver::Stimulus& stimulus = *target.stimulus;
+    if (node.value_exact<std::string_view>() == "all") return true;
+    const auto* table = node.as_table();
+    if (table == nullptr || table->empty()) return false;
+    const std::vector<std::string_view> names{"center", "radius", "columns", "rows"};
+    bool known = true;
+    for (const auto& [name, value] : *table) {
+      if (std::ranges::find(names, name.str()) != names.end()) continue;
+      known = false;
+      wrong_.insert(path);
+      problems_.add(name.source(), fmt::format("unknown key \"{}\" in {}{}", printable(name.str()), path,
+                                               hint(did_you_mean(name.str(), names))));
+    }
+    if (!known) return false;
+    const bool is_disc = table->contains("center") || table->contains("radius");
+    const bool is_block = table->contains("columns") || table->contains("rows");
+    if (is_disc == is_block) return false;
+    if (is_disc) return set_disc(*table, path, stimulus);
+    stimulus.shape = Shape::block;
+    return set_side(*table, "columns", path, scene_.grid.columns, stimulus.columns) &
+           set_side(*table, "rows", path, scene_.grid.rows, stimulus.rows);
+  }
+
+  bool set_disc(const toml::table& table, const std::string& path, solver::Stimulus& stimulus) {
+    stimulus.shape = solver::Stimulus::Shape::disc;
+    const toml::node* center = table.get("center");
+    const toml::node* radius = table.get("radius");
+    if (center == nullptr || radius == nullptr) return false;
+    const auto* array = center->as_array();
+    const auto x = array != nullptr && array->size() == 2 ? number_in(*array->get(0), {}) : std::nullopt;
+    const auto y = x ? number_in(*array->get(1), {}) : std::nullopt;
+    if (!y) bad(path + ".center", *center, "[column, row], two numbers");
+    const auto r = number_in(*radius, {.low = 0});
+    if (!r) bad(path + ".radius", *radius, "a number >= 0 (node spacings)");
+    if (!y || !r) {
+      wrong_.insert(path);
+      return false;
+    }
+    stimulus.center = {*x, *y};
+    stimulus.radius = *r;
+    return true;
+  }
+
+  // First and last node of one side of a block; the whole side where it is not named.
+  bool set_side(const toml::table& table, std::string_view name, const std::string& path, int nodes,
+                std::array<int, 2>& side) {
+    const toml::node* node = table.get(name);
+    side = {0, nodes - 1};
+    if (node == nullptr) return true;
+    const auto value = int_pair(node);
+    if (!value) {
+      bad(fmt::format("{}.{}", path, name), *node, "[first, last], two integers");
+      wrong_.insert(path);
+      return false;
+    }
+    side = *value;
+    return true;
+  }
+
+  // ---- what several keys must agree on --------------------------------------------------------
+
+  bool fine(std::initializer_list<std::string_view> paths) const {
+    return std::ranges::none_of(paths,
+                                [&](std::string_view path) { return wrong_.contains(std::string(path)); });
+  }
+
+  // Reports at the first of the paths that the scene gives.
+  void conflict(std::initializer_list<std::string> paths, const std::string& message) {
+    for (const std::string& path : paths) {
+      if (const auto found = given_.find(path); found != given_.end()) {
+        problems_.add(found->second->source(), message);
+        return;
+      }
+    }
+    problems_.add({}, message);
+  }
+
+  void check_time() {
+    if (fine({"time.dt", "time.t_end"})) check_step_count("time.t_end", scene_.time.t_end);
+  }
+
+  void check_step_count(const std::string& path, double duration) {
+    constexpr double most_steps = 1e15;
+    const double steps = duration / scene_.time.dt;
+    if (!(steps <= most_steps)) {
+      conflict({path, "time.dt"},
+               fmt::format("{} = {} with time.dt = {} is {:.2g} steps; at most {:g} can be counted", path,
+                           duration, scene_.time.dt, steps, most_steps));
+    }
+  }
+
+  // An explicit step past 1/rate overshoots the tension it relaxes to.
+  void check_tension(const std::string& section, const solver::TensionSettings& tension) {
+    if (!fine({"time.dt", section + ".eps0", section + ".eps_below", section + ".eps_above"})) return;
+    for (const auto& [name, rate] :
+         {std::pair("eps_below", tension.eps_below), std::pair("eps_above", tension.eps_above)}) {
+      if (rate * scene_.time.dt <= 1) continue;
+      conflict({section + "." + name, section + ".eps0", "tension." + std::string(name), "tension.eps0",
+                "time.dt"},
+               fmt::format("{}.{} = {} is too fast for time.dt = {}: the rate times the step must be <= 1",
+                           section, name, rate, scene_.time.dt));
+    }
+  }
+
+  void check_mechanics() {
+    if (!scene_.mechanics) return;
+    const solver::MechanicsSettings& mechanics = *scene_.mechanics;
+    if (sheet_known_ && fine({"mechanics.cells_per_element"})) {
+      check_divides("columns", scene_.grid.columns, mechanics.cells_per_element);
+      if (scene_.grid.rows != scene_.grid.columns)
+        check_divides("rows", scene_.grid.rows, mechanics.cells_per_element);
+    }
+    if (fine({"mechanics.c1", "mechanics.c2"}) && mechanics.c1 == 0 && mechanics.c2 == 0) {
+      conflict({"mechanics.c1", "mechanics.c2"},
+               "mechanics.c1 and mechanics.c2 are both 0: a sheet without stiffness has no equilibrium");
+    }
+  }
+
+  void check_divides(std::string_view side, std::int64_t nodes, std::int64_t cells) {
+    if ((nodes - 1) % cells == 0) return;
+    const std::int64_t below = (nodes - 1) / cells * cells + 1;
+    const std::string nearest =
+        below > 1 ? fmt::format("the nearest sizes that are: {} and {}", below, below + cells)
+                  : fmt::format("the smallest size that is: {}", below + cells);
+    const std::string name =
+        scene_.grid.rows == scene_.grid.columns ? "grid.n" : fmt::format("grid.n: {}", side);
+    conflict(
+        {"grid.n", "mechanics.cells_per_element", "mechanics"},
+        fmt::format("{} = {}: {} - 1 = {} cells are not divisible by mechanics.cells_per_element = {}; {}",
+                    name, nodes, nodes, nodes - 1, cells, nearest));
+  }
+
+  void check_initial() {
+    const Section& section = *find_section("initial");
+    const solver::InitialSettings& initial = scene_.initial;
+    if (!fine({"initial.type"})) return;
+    const auto& types = std::get<Choice>(find_key(section, "type")->kind).names;
+    const std::string_view type = types[static_cast<std::size_t>(initial.type)];
+    check_unused(section, type);
+    if (initial.type == solver::InitialSettings::Type::file) check_file();
+    if (!sheet_known_) return;
+    if (initial.type == solver::InitialSettings::Type::broken_front)
+      check_inside("initial.offset", "the end of the front", initial.offset);
+    if (initial.type == solver::InitialSettings::Type::settled_spiral)
+      check_inside("initial.core_offset", "the core", initial.core_offset);
+  }
+
+  // A key of another type would be ignored. Where --set chose the type, the file's keys for its own
+  // type are no mistake.
+  void check_unused(const Section& section, std::string_view type) {
+    const auto type_given = given_.find("initial.type");
+    const bool type_set = type_given != given_.end() && is_override(type_given->second->source());
+    for (const Key& key : section.keys) {
+      const auto found = given_.find(fmt::format("initial.{}", key.name));
+      if (key.only_type.empty() || key.only_type == type || found == given_.end()) continue;
+      if (type_set && !is_override(found->second->source())) continue;
+      const std::string help = key.name == "offset" && type == "settled_spiral"      ? hint("core_offset")
+                               : key.name == "core_offset" && type == "broken_front" ? hint("offset")
+                                                                                     : "";
+      problems_.add(found->second->source(),
+                    fmt::format("initial.{} belongs to type = \"{}\" and has no effect with type = \"{}\"{}",
+                                key.name, key.only_type, type, help));
+    }
+  }
+
+  void check_file() {
+    const std::string& file = scene_.initial.file;
+    if (!fine({"initial.file"})) return;
+    if (file.empty()) {
+      conflict({"initial.type"}, "initial.file is missing: type = \"file\" needs the path of an HDF5 file");
+      return;
+    }
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) {
+      conflict({"initial.file"}, fmt::format("initial.file: there is no file {}", file));
+    } else if (std::filesystem::is_directory(file, error)) {
+      conflict({"initial.file"}, fmt::format("initial.file: {} is a folder", file));
+    }
+  }
+
+  // `offset` [columns, rows] from the middle of the sheet.
+  void check_inside(const std::string& path, std::string_view what, const std::array<int, 2>& offset) {
+    if (!fine({path})) return;
+    const std::int64_t column = (scene_.grid.columns - 1) / 2 + std::int64_t{offset[0]};
+    const std::int64_t row = (scene_.grid.rows - 1) / 2 + std::int64_t{offset[1]};
+    if (column >= 0 && column < scene_.grid.columns && row >= 0 && row < scene_.grid.rows) return;
+    conflict({path}, fmt::format("{} = [{}, {}] puts {} at column {}, row {}, outside of the sheet ({})",
+                                 path, offset[0], offset[1], what, column, row, sheet_text()));
+  }
+
+  std::string sheet_text() const {
+    return fmt::format("columns 0 to {}, rows 0 to {}", scene_.grid.columns - 1, scene_.grid.rows - 1);
+  }
+
+  void check_preconditions() {
+    for (std::size_t i = 0; i < scene_.initial.preconditions.size(); ++i) {
+      const solver::Precondition& one = scene_.initial.preconditions[i];
+      const std::string& path = precondition_paths_[i];
+      if (one.contraction && !scene_.mechanics && fine({"mechanics.on"})) {
+        conflict({path + ".contraction"},
+                 fmt::format("{}.contraction = true needs [mechanics]; this scene is rigid", path));
+      }
+      if (fine({"time.dt", path + ".duration"})) check_step_count(path + ".duration", one.duration);
+      const bool own_rates =
+          std::ranges::any_of(std::array{".law", ".eps0", ".eps_below", ".eps_above"},
+                              [&](const char* key) { return given_.contains(path + key); });
+      if (own_rates) check_tension(path, one.tension);
+    }
+  }
+
+  void check_stimuli() {
+    for (std::size_t i = 0; i < scene_.stimuli.size(); ++i) {
+      const solver::Stimulus& one = scene_.stimuli[i];
+      const std::string& path = stimulus_paths_[i];
+      if (fine({path + ".duration", path + ".period"}) && one.period > 0 && one.duration > one.period) {
+        conflict({path + ".duration", path + ".period"},
+                 fmt::format("{}.duration = {} is longer than its period = {}: pulses would overlap", path,
+                             one.duration, one.period));
+      }
+      if (fine({path + ".count", path + ".period"}) && one.period == 0 && (one.count > 1 || one.count < 0)) {
+        conflict({path + ".count"}, fmt::format("{}.count = {} needs a period > 0", path, one.count));
+      }
+      if (fine({path + ".duration", "time.dt"}) && one.duration < scene_.time.dt) {
+        conflict({path + ".duration", "time.dt"},
+                 fmt::format("{}.duration = {} is shorter than a step (time.dt = {})", path, one.duration,
+                             scene_.time.dt));
+      }
+      if (sheet_known_ && fine({path + ".region"})) check_region(path + ".region", one);
+    }
+  }
+
+  void check_region(const std::string& path, const solver::Stimulus& one) {
+    using Shape = solver::Stimulus::Shape;
+    const int columns = scene_.grid.columns, rows = scene_.grid.rows;
+    if (one.shape == Shape::block) {
+      const auto outside = [](const std::array<int, 2>& side, int nodes) {
+        return side[0] < 0 || side[1] >= nodes;
+      };
+      if (one.columns[0] > one.columns[1] || one.rows[0] > one.rows[1]) {
+        conflict({path},
+                 fmt::format("{}: columns = [{}, {}], rows = [{}, {}]: the last node comes before the first",
+                             path, one.columns[0], one.columns[1], one.rows[0], one.rows[1]));
+      } else if (outside(one.columns, columns) || outside(one.rows, rows)) {
+        conflict({path}, fmt::format("{}: columns = [{}, {}], rows = [{}, {}] leave the sheet ({})", path,
+                                     one.columns[0], one.columns[1], one.rows[0], one.rows[1], sheet_text()));
+      }
+    }
+    if (one.shape == Shape::disc) {
+      const auto& [x, y] = one.center;
+      if (!(x >= 0 && x <= columns - 1 && y >= 0 && y <= rows - 1)) {
+        conflict({path}, fmt::format("{}: center = [{}, {}] (column, row) is outside of the sheet ({})", path,
+                                     x, y, sheet_text()));
+      } else if (std::hypot(x - std::round(x), y - std::round(y)) > one.radius) {
+        conflict({path}, fmt::format("{}: no node lies within radius = {} of center = [{}, {}]", path,
+                                     one.radius, x, y));
+      }
+    }
+  }
+
+  void check_output() {
+    solver::OutputSettings& output = scene_.output;
+    check_multiple("output.every", output.every);
+    if (output.tips_every != output.every) check_multiple("output.tips_every", output.tips_every);
+    if (output.probes_every != output.every) check_multiple("output.probes_every", output.probes_every);
+    if (!sheet_known_) return;
+    const int columns = scene_.grid.columns, rows = scene_.grid.rows;
+    if (output.probes.empty()) {
+      const int bottom = (rows - 1) / 4, left = (columns - 1) / 4;
+      const int top = rows - 1 - bottom, right = columns - 1 - left;
+      output.probes = {{bottom, left}, {bottom, right}, {top, left}, {top, right}};
+    }
+    for (const auto& [row, column] : output.probes) {
+      if (row >= 0 && row < rows && column >= 0 && column < columns) continue;
+      conflict({"output.probes"},
+               fmt::format("output.probes: [{}, {}] (row, column) is outside of the sheet ({})", row, column,
+                           sheet_text()));
+    }
+  }
+
+  void check_multiple(const std::string& path, double every) {
+    if (!fine({path, "output.every", "time.dt"})) return;
+    const double dt = scene_.time.dt;
+    const double steps = every / dt;
+    if (!(steps < 1e15)) {
+      check_step_count(path, every);
+      return;
+    }
+    // 1e-6 of a step covers decimal numbers that binary ones only come close to.
+    if (std::round(steps) >= 1 && std::abs(steps - std::round(steps)) < 1e-6) return;
+    const double below = std::floor(steps);
+    const std::string nearest =
+        below < 1 ? fmt::format("the smallest is {:g}", dt)
+                  : fmt::format("the nearest are {:g} and {:g}", below * dt, (below + 1) * dt);
+    conflict({path, "output.every", "time.dt"},
+             fmt::format("{} = {} is not a multiple of time.dt = {}; {}", path, every, dt, nearest));
+  }
+
+  const toml::table& root_;
+  std::filesystem::path folder_;
+  Problems& problems_;
+  Scene scene_;
+  std::map<std::string, const toml::node*> given_;  // by path: "grid.n", "stimulus.0", ...
+  std::set<std::string> wrong_;                     // paths already reported
+  std::vector<std::string> stimulus_paths_, precondition_paths_;
+  bool sheet_known_ = true;  // grid.n is no error, so that others can be compared with it
+};
+
+// ---- overrides ------------------------------------------------------------------------------
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char letter : path) {
+    if (letter == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += letter;
+    }
+  }
+  return parts;
+}
+
+bool is_index(const std::string& text) {
+  return !text.empty() && text.size() < 9 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (static_cast<unsigned char>(letter) < 0x20 || letter == '"' || letter == '\\' || letter == 0x7f) {
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
+    } else {
+      result += letter;
+    }
+  }
+  return result + '"';
+}
+
+// The table that holds nothing but this value, its nodes marked as from this override.
+toml::table override_table(const std::string& key, const std::string& value) {
+  const std::string source = std::string(override_mark) + key;
+  if (value.find_first_of("\r\n") == std::string::npos) {
+    try {
+      return toml::parse(fmt::format("{} = {}", key, value), source);
+    } catch (const toml::parse_error&) {
+      // No TOML value: a string that needs no quotes.
+    }
+  }
+  return toml::parse(fmt::format("{} = {}", key, toml_string(value)), source);
+}
+
+// Puts the override's value where the path leads. Errors: InputError where it leads nowhere.
+void merge(toml::table& root, toml::table&& given, const std::vector<std::string>& path) {
+  toml::node* into = &root;
+  toml::table* from = &given;
+  std::string section;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::string& name = path[i];
+    toml::node& value = *from->get(name);
+    const bool last = i + 1 == path.size();
+    const bool repeated = find_section(section) != nullptr && find_section(section)->repeated;
+    if (auto* array = into->as_array()) {
+      if (!is_index(name))
+        throw InputError(fmt::format("{0} is an array: name an element, for example {0}.0", section));
+      const std::size_t index = std::stoul(name);
+      if (index >= array->size()) {
+        throw InputError(fmt::format("there is no {} {}: the scene has {}", section, name, array->size()));
+      }
+      if (last) {
+        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), std::move(value));
+        return;
+      }
+      into = array->get(index);
+    } else if (auto* table = into->as_table()) {
+      toml::node* next = table->get(name);
+      if (repeated && name == "0" && next == nullptr) {
+        // One table that could be several: it is number 0 itself.
+      } else if (repeated && is_index(name)) {
+        throw InputError(fmt::format("there is no {} {}: the scene has 1", section, name));
+      } else if (next == nullptr || last) {
+        const Section* inserted = find_section(section.empty() ? name : section + "." + name);
+        if (next == nullptr && !last && inserted != nullptr && inserted->repeated && is_index(path[i + 1])) {
+          throw InputError(fmt::format("there is no {} {}: the scene has 0", inserted->name, path[i + 1]));
+        }
+        // The parsed key, not its text: it knows where it comes from.
+        table->insert_or_assign(from->find(name)->first, std::move(value));
+        return;
+      } else {
+        into = next;
+      }
+    } else {
+      throw InputError(fmt::format("{} is one value and has no \"{}\"", section, name));
+    }
+    if (last) throw InputError("a whole table cannot be replaced; name one of its keys");
+    section += (section.empty() ? "" : ".") + name;
+    if (repeated && is_index(name)) section.erase(section.rfind('.'));
+    from = value.as_table();
+  }
+}
+
+void apply_override(toml::table& root, const std::string& text, Problems& problems) {
+  const auto trimmed = [](std::string part) {
+    part.erase(0, part.find_first_not_of(" \t"));
+    part.erase(part.find_last_not_of(" \t") + 1);
+    return part;
+  };
+  const std::size_t equals = text.find('=');
+  const std::string key = trimmed(text.substr(0, equals));
+  const auto is_key_letter = [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '_' || letter == '-' || letter == '.';
+  };
+  if (equals == std::string::npos || key.empty() || !std::ranges::all_of(key, is_key_letter) ||
+      key.front() == '.' || key.back() == '.' || key.find("..") != std::string::npos) {
+    problems.add_override(printable(text), "must be section.key=value");
+    return;
+  }
+  try {
+    merge(root, override_table(key, trimmed(text.substr(equals + 1))), split(key));
+  } catch (const toml::parse_error& error) {
+    problems.add_override(key, std::string(error.description()));
+  } catch (const InputError& error) {
+    problems.add_override(key, error.what());
+  }
+}
+
+std::string file_text(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
+    throw InputError(fmt::format("{}: there is no such file", file.string()));
+  if (std::filesystem::is_directory(status)) {
+    throw InputError(fmt::format("{}: is a folder; name a scene file in it", file.string()));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  // Far beyond any scene; a wrong file is told before it is read whole.
+  constexpr std::streamsize most_bytes = 1 << 20;
+  std::string text(most_bytes + 1, '\0');
+  stream.read(text.data(), most_bytes + 1);
+  if (stream.bad()) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  if (stream.gcount() > most_bytes) {
+    throw InputError(fmt::format("{}: is larger than 1 MiB and no scene file", file.string()));
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  const std::vector<std::string>& overrides) {
+  Problems problems(file.string());
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    problems.add(error.source(), std::string(error.description()));
+    problems.throw_if_any();
+  }
+  for (const std::string& one : overrides) apply_override(root, one, problems);
+  Scene scene = SceneReader(root, file, problems).read();
+  problems.throw_if_any();
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return parse_scene(file_text(file), file, overrides);
+}
+
+}  // namespace myowave::apps

@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Compiles translation units to a GPU's machine code on a machine without that GPU and without a
+# Kokkos built for it, and prints what each kernel needs. It is a compile check; it proves no run.
+#
+#   cmake/device_compile.sh cuda|hip KOKKOS_INCLUDE WORK SOURCE...
+#
+# Kokkos installs the headers of every backend. A few generated ones choose among them: copies of
+# these, edited for the wanted backend, go into WORK and first on the include path. Objects and
+# reports stay in WORK; a source none of whose files changed is not compiled again.
+# Exits 77 where the compiler is missing.
+set -euo pipefail
+
+backend=$1 kokkos=$2 work=$3
+shift 3
+project=$(realpath "$(dirname "$0")/..")
+overlay=$work/overlay
+
+find_cuda() {
+  compiler=$(PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin command -v nvcc) ||
+    { echo "skipped: no nvcc on PATH or in /usr/local/cuda"; exit 77; }
+  defines=(KOKKOS_ENABLE_CUDA KOKKOS_ENABLE_CUDA_LAMBDA KOKKOS_ARCH_HOPPER KOKKOS_ARCH_HOPPER90 'KOKKOS_ARCH_NVIDIA_GPU 90')
+  # A host function called from a kernel is only a warning to nvcc.
+  flags=(-x cu -arch=sm_90 --extended-lambda --expt-relaxed-constexpr -Xptxas -v -Werror cross-execution-space-call)
+}
+
+find_hip() {
+  local rocm=${ROCM_PATH:-/usr} bitcode
+  compiler=$(command -v clang++-19 || command -v amdclang++) || { echo "skipped: no clang++-19 or amdclang++ on PATH"; exit 77; }
+  bitcode=$(find "$rocm" -type d -name bitcode -path '*amdgcn*' -print -quit 2>/dev/null)
+  [ -f "$rocm/include/hip/hip_runtime.h" ] && [ -n "$bitcode" ] ||
+    { echo "skipped: no HIP headers and device libraries in $rocm (ROCM_PATH names another place)"; exit 77; }
+  defines=(KOKKOS_ENABLE_HIP 'KOKKOS_ARCH_AMD_GPU "gfx90a"' KOKKOS_ARCH_AMD_GFX90A)
+  flags=(-x hip --offload-arch=gfx90a --rocm-path="$rocm" --rocm-device-lib-path="$bitcode" --cuda-device-only
+    --no-gpu-bundle-output -Rpass-analysis=kernel-resource-usage)
+}
+
+# The headers that choose the backends, as Kokkos' own CMake would write them.
+write_overlay() {
+  local name=${backend^^} header
+  [ "$overlay/KokkosCore_config.h" -nt "$0" ] && [ "$overlay/KokkosCore_config.h" -nt "$kokkos/KokkosCore_config.h" ] && return
+  mkdir -p "$overlay/desul/atomics"
+  for header in Setup Fwd Declare; do
+    { case $header in
+        Setup) echo "#include <setup/Kokkos_Setup_${name/CUDA/Cuda}.hpp>" ;;
+        Fwd) printf '#include <fwd/Kokkos_Fwd_%s.hpp>\n' SERIAL "$name" ;;
+        Declare) printf '#include <decl/Kokkos_Declare_%s.hpp>\n' SERIAL "$name" ;;
+      esac; } | sed '1i #pragma once' >"$overlay/KokkosCore_Config_${header}Backend.hpp"
+  done
+  { sed '/DESUL_ATOMICS_ENABLE_/d' "$kokkos/desul/atomics/Config.hpp"
+    echo "#define DESUL_ATOMICS_ENABLE_$name"; } >"$overlay/desul/atomics/Config.hpp"
+  { sed -E '/KOKKOS_(ENABLE_(SERIAL|OPENMP|THREADS|HPX|CUDA|HIP|SYCL|OPENACC)|ARCH_)/d' "$kokkos/KokkosCore_config.h"
+    printf '#define %s\n' KOKKOS_ENABLE_SERIAL "${defines[@]}"; } >"$overlay/KokkosCore_config.h"
+}
+
+# True if the object is newer than every file it was made from.
+is_fresh() {
+  local files
+  [ -f "$1" ] && [ "$1" -nt "$overlay/KokkosCore_config.h" ] || return
+  read -r -d '' -a files < <(sed -e 's/^[^:]*: //' -e 's/\\$//' "$1.d" && printf '\0')
+  [ -z "$(find "${files[@]}" -newer "$1" 2>&1)" ]
+}
+
+compile() {
+  local source=$1 object=$2
+  "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" \
+    -MD -MF "$object.d" -c "$source" -o "$object.new" >"$object.log" 2>&1 || { cat "$object.log"; return 1; }
+  mv "$object.new" "$object"
+}
+
+# One line a kernel of ours: what the compiler gave it, and which function launches it.
+report() {
+  c++filt <"$1" | awk '
+    function launcher(line) {
+      # Kernels of Kokkos itself (fills, copies) carry no name of ours.
+      if (!match(line, /myowave::/)) return ""
+      line = substr(line, RSTART + RLENGTH)
+      sub(/\(.*|, Kokkos::.*/, "", line)
+      gsub(/(Kokkos|myowave|Impl|Experimental)::/, "", line)
+      return substr(line, 1, 100)
+    }
+    function number(line, before) { sub(".*" before, "", line); return line + 0 }
+    function row(kind, count, stack, spill) {
+      if (name != "") printf "  %4d %s %5d B stack %4d %s spilled  %s\n", count, kind, stack, spill, kind == "VGPRs" ? kind : "B", name
+    }
+    # ptxas -v
+    /Compiling entry function/ { name = launcher($0) }
+    /bytes stack frame/ { stack = $1; spill = $5 + $9 }
+    /Used [0-9]+ registers/ { row("registers", number($0, "Used "), stack, spill) }
+    # clang -Rpass-analysis=kernel-resource-usage
+    /Function Name: / { name = launcher($0) }
+    / VGPRs: / { vgprs = number($0, " VGPRs: ") }
+    /ScratchSize / { stack = number($0, "]: ") }
+    /VGPRs Spill: / { row("VGPRs", vgprs, stack, number($0, "Spill: ")) }'
+}
+
+"find_$backend"
+write_overlay
+failed=0
+for source in "$@"; do
+  object=$work/$(basename "${source%.cpp}").o
+  echo "$backend: ${source#"$project"/}"
+  is_fresh "$object" || compile "$source" "$object" || { failed=1; continue; }
+  report "$object.log"
+done
+exit $failed

@@ -1,0 +1,24 @@
+// Active tension at a point (Nash & Panfilov 2004, Eqs 22c, 23):
+//   Ta_t = eps_T(V) (k_Ta V - Ta),   eps_T = eps_below for V < threshold, eps_above from there on.
+// The paper's Eq 23 (0.1 : 1 the other way round, law "printed") lets Ta follow V at once; with
+// eps_below = 1 and eps_above = 0.1 (law "delayed") tension lags V as in the paper's Fig 2a.
+#pragma once
+
+#include <Kokkos_Macros.hpp>
+
+namespace myowave::cell {
+
+template <class Real>
+struct ActiveTension {
+  Real k_Ta = Real(47.9);      // kPa, Table 1
+  Real eps_below = Real(1);    // 1/t.u.
+  Real eps_above = Real(0.1);  // 1/t.u.
+  Real threshold = Real(0.05);
+
+  // dTa/dt, kPa/t.u.
+  KOKKOS_FORCEINLINE_FUNCTION Real rate(Real V, Real Ta) const {
+    return (V < threshold ? eps_below : eps_above) * (k_Ta * V - Ta);
+  }
+};
+
+}  // namespace myowave::cell

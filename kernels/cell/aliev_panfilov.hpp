@@ -1,0 +1,32 @@
+// Aliev-Panfilov excitation at a point (Nash & Panfilov 2004, Eqs 22a, b without diffusion):
+//   f(V, r) = -k V (V - a)(V - 1) - r V
+//   r_t     = (eps + mu1 r / (mu2 + V)) (-r - k V (V - b - 1))
+#pragma once
+
+#include <Kokkos_Macros.hpp>
+
+namespace myowave::cell {
+
+// All dimensionless but eps and mu1 (1/t.u.) and k (1/t.u.). Table 1 of the paper omits b; with
+// b = 0.1 the paper's periods and its turbulence are found.
+template <class Real>
+struct AlievPanfilov {
+  Real k = Real(8);
+  Real a = Real(0.1);
+  Real b = Real(0.1);
+  Real eps = Real(0.01);
+  Real mu1 = Real(0.12);
+  Real mu2 = Real(0.3);
+
+  // f(V, r): the reaction part of dV/dt, 1/t.u.
+  KOKKOS_FORCEINLINE_FUNCTION Real excitation(Real V, Real r) const {
+    return -k * V * (V - a) * (V - Real(1)) - r * V;
+  }
+
+  // dr/dt, 1/t.u.
+  KOKKOS_FORCEINLINE_FUNCTION Real recovery(Real V, Real r) const {
+    return (eps + mu1 * r / (mu2 + V)) * (-r - k * V * (V - b - Real(1)));
+  }
+};
+
+}  // namespace myowave::cell

@@ -1,0 +1,30 @@
+// Values at chosen nodes of one member.
+#pragma once
+
+#include "kernels/base/views.hpp"
+
+namespace myowave::observe {
+
+// record(step, n) = field at the linear index nodes(n) = row columns + column. Small and frequent:
+// where the host reaches the memory it is a plain loop.
+//
+//   view     shape                      access
+//   field    (members, rows, columns)   read, member 0
+//   nodes    (probes)                   read
+//   record   (steps, probes)            write one row
+template <class ExecutionSpace, class View, class NodeList, class Record>
+void record_probes(const ExecutionSpace& space, const View& field, const NodeList& nodes,
+                   const Record& record, int step) {
+  const int probes = static_cast<int>(nodes.extent(0));
+  const auto* values = field.data();
+  if constexpr (Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename View::memory_space>::accessible) {
+    space.fence("myowave::observe::record_probes");
+    for (int n = 0; n < probes; ++n) record(step, n) = values[nodes(n)];
+  } else {
+    Kokkos::parallel_for(
+        "myowave::observe::record_probes", Kokkos::RangePolicy<ExecutionSpace>(space, 0, probes),
+        KOKKOS_LAMBDA(int n) { record(step, n) = values[nodes(n)]; });
+  }
+}
+
+}  // namespace myowave::observe

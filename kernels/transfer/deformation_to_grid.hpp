@@ -1,0 +1,223 @@
+// The metric of the deformed sheet on the grid, from the element nodes (Eqs 22a, 24).
+//
+// In a bilinear element with nodes x00, x10, x01, x11 (first index along xi_1) and edge h
+//   F_i1 = [(1 - xi_2)(x10 - x00)_i + xi_2 (x11 - x01)_i] / h
+//   F_i2 = [(1 - xi_1)(x01 - x00)_i + xi_1 (x11 - x10)_i] / h
+//   x_i,12 = (x00 - x10 - x01 + x11)_i / h^2
+//
+//   view      shape        unit     access
+//   nodes     (nodes, 2)   length   read, of one member
+//   metric    see kernels/tissue/metric.hpp; written for one member
+#pragma once
+
+#include "kernels/base/tensor2.hpp"
+#include "kernels/base/views.hpp"
+#include "kernels/elastic/element_grid.hpp"
+#include "kernels/tissue/metric.hpp"
+
+namespace myowave::transfer {
+
+// The extremes over the centres of all FD cells.
+struct DeformationBounds {
+  double max_trace_inverse_C = 0;  // the stability bound's tr C^-1; 2 undeformed
+  double min_J = 0;                // det F
+};
+
+// One element's map, from 8 nodal numbers.
+struct BilinearMap {
+  double x00[2], x10[2], x01[2], x11[2];
+  double inverse_h;
+
+  KOKKOS_INLINE_FUNCTION Mat2 deformation_gradient(double xi_1, double xi_2) const {
+    const double s = 1 - xi_1, t = 1 - xi_2;
+    return {inverse_h * (t * (x10[0] - x00[0]) + xi_2 * (x11[0] - x01[0])),
+            inverse_h * (s * (x01[0] - x00[0]) + xi_1 * (x11[0] - x10[0])),
+            inverse_h * (t * (x10[1] - x00[1]) + xi_2 * (x11[1] - x01[1])),
+            inverse_h * (s * (x01[1] - x00[1]) + xi_1 * (x11[1] - x10[1]))};
+  }
+  // Component i = 0, 1 of x_,12, constant in the element.
+  KOKKOS_INLINE_FUNCTION double mixed_derivative(int i) const {
+    return inverse_h * inverse_h * (x00[i] - x10[i] - x01[i] + x11[i]);
+  }
+};
+
+template <class MemorySpace>
+KOKKOS_INLINE_FUNCTION BilinearMap element_map(const elastic::ElementGrid& elements,
+                                               const Nodes<MemorySpace>& nodes, int I, int J) {
+  const int n00 = elements.node(I, J), n01 = elements.node(I + 1, J);
+  return {{nodes(n00, 0), nodes(n00, 1)},
+          {nodes(n00 + 1, 0), nodes(n00 + 1, 1)},
+          {nodes(n01, 0), nodes(n01, 1)},
+          {nodes(n01 + 1, 0), nodes(n01 + 1, 1)},
+          1 / elements.h};
+}
+
+// Writes the metric of one member of the `conservative` form. Holds the scratch that it needs, so
+// that a refresh allocates nothing.
+template <class ExecutionSpace, class Real>
+class ConservativeTransfer {
+ public:
+  using MemorySpace = typename ExecutionSpace::memory_space;
+  using View = EnsembleField<Real, MemorySpace>;
+  using Metric = tissue::ConservativeMetric<Real, MemorySpace>;
+
+  ConservativeTransfer() = default;
+  ConservativeTransfer(const tissue::Grid& grid, const elastic::ElementGrid& elements, int cells_per_element)
+      : grid_(grid),
+        elements_(elements),
+        cells_(cells_per_element),
+        G11_("myowave::transfer::G11", grid.rows + 1, grid.columns + 1),
+        G22_("myowave::transfer::G22", grid.rows + 1, grid.columns + 1),
+        sqrt_C_("myowave::transfer::sqrt_C", grid.rows + 1, grid.columns + 1) {}
+
+  // Waits for the bounds; errors are the caller's to raise (min_J <= 0, the stability bound).
+  DeformationBounds refresh(const ExecutionSpace& space, const Nodes<MemorySpace>& nodes,
+                            const Metric& metric, int member) const {
+    const DeformationBounds bounds = cell_pass(space, nodes, metric.diagonal, member);
+    edge_pass(space, metric, member);
+    return bounds;
+  }
+
+  // Called by refresh(); public because a device lambda may not stand in a private function.
+  DeformationBounds cell_pass(const ExecutionSpace& space, const Nodes<MemorySpace>& nodes,
+                              const View& diagonal, int m) const {
+    const auto elements = elements_;
+    const int cells = cells_;
+    const auto G11 = G11_, G22 = G22_, sqrt_C = sqrt_C_;
+    const double width = 1.0 / cells;
+    DeformationBounds bounds;
+    Kokkos::parallel_reduce(
+        "myowave::transfer::cell_metric",
+        Kokkos::RangePolicy<ExecutionSpace>(space, 0, (grid_.rows - 1) * elements.columns),
+        KOKKOS_LAMBDA(int strip, double& max_trace, double& min_J) {
+          const int i = strip / elements.columns, J = strip % elements.columns, I = i / cells;
+          const BilinearMap map = element_map(elements, nodes, I, J);
+          const double xi_2 = (i - I * cells + 0.5) * width;
+          for (int c = 0; c < cells; ++c) {
+            const Mat2 F = map.deformation_gradient((c + 0.5) * width, xi_2);
+            const Sym2 C = right_cauchy_green(F);
+            const double det_F = determinant(F);
+            const double inverse_J = 1 / det_F;
+            const int j = J * cells + c;
+            // G = sqrt C C^-1 = adj(C) / J
+            G11(i + 1, j + 1) = Real(C.m22 * inverse_J);
+            G22(i + 1, j + 1) = Real(C.m11 * inverse_J);
+            diagonal(m, i + 1, j + 1) = Real(-0.5 * C.m12 * inverse_J);
+            sqrt_C(i + 1, j + 1) = Real(det_F);
+            max_trace = Kokkos::max(max_trace, trace(C) * inverse_J * inverse_J);
+            min_J = Kokkos::min(min_J, det_F);
+          }
+        },
+        Kokkos::Max<double>(bounds.max_trace_inverse_C), Kokkos::Min<double>(bounds.min_J));
+    return bounds;
+  }
+
+  void edge_pass(const ExecutionSpace& space, const Metric& metric, int m) const {
+    const auto G11 = G11_, G22 = G22_, sqrt_C = sqrt_C_;
+    const Real half = Real(0.5), four_over_dx2 = Real(4 / (grid_.dx * grid_.dx));
+    const int rows = grid_.rows, columns = grid_.columns;
+    Kokkos::parallel_for(
+        "myowave::transfer::edge_weights",
+        Kokkos::MDRangePolicy<ExecutionSpace, Kokkos::Rank<2>>(space, {0, 0}, {rows, columns}),
+        KOKKOS_LAMBDA(int i, int j) {
+          // Cells around node (i, j): (i - 1 or i, j - 1 or j), at + 1 in the shifted arrays.
+          metric.east(m, i + 1, j + 1) = half * (G11(i, j + 1) + G11(i + 1, j + 1));
+          metric.north(m, i + 1, j + 1) = half * (G22(i + 1, j) + G22(i + 1, j + 1));
+          metric.inverse_mass(m, i + 1, j + 1) =
+              four_over_dx2 / (sqrt_C(i, j) + sqrt_C(i, j + 1) + sqrt_C(i + 1, j) + sqrt_C(i + 1, j + 1));
+        });
+  }
+
+ private:
+  using Scratch = Field<Real, MemorySpace>;
+  tissue::Grid grid_;
+  elastic::ElementGrid elements_;
+  int cells_ = 1;
+  // Shifted by one as ConservativeMetric; entries outside the sheet stay zero.
+  Scratch G11_, G22_, sqrt_C_;
+};
+
+// Writes the metric of one member of the `expanded` form: at a node on a shared line or corner the
+// mean over the elements that meet there.
+template <class ExecutionSpace, class Real>
+class ExpandedTransfer {
+ public:
+  using MemorySpace = typename ExecutionSpace::memory_space;
+  using Metric = tissue::ExpandedMetric<Real, MemorySpace>;
+
+  ExpandedTransfer() = default;
+  ExpandedTransfer(const tissue::Grid& grid, const elastic::ElementGrid& elements, int cells_per_element)
+      : grid_(grid), elements_(elements), cells_(cells_per_element) {}
+
+  DeformationBounds refresh(const ExecutionSpace& space, const Nodes<MemorySpace>& nodes,
+                            const Metric& metric, int m) const {
+    const auto elements = elements_;
+    const int cells = cells_;
+    Kokkos::parallel_for(
+        "myowave::transfer::node_metric",
+        Kokkos::MDRangePolicy<ExecutionSpace, Kokkos::Rank<2>>(space, {0, 0}, {grid_.rows, grid_.columns}),
+        KOKKOS_LAMBDA(int i, int j) {
+          NodeMetric sum{};
+          int adjacent = 0;
+          for (int I = Kokkos::max(0, (i - 1) / cells); I <= Kokkos::min(elements.rows - 1, i / cells); ++I)
+            for (int J = Kokkos::max(0, (j - 1) / cells); J <= Kokkos::min(elements.columns - 1, j / cells);
+                 ++J) {
+              sum += node_metric(element_map(elements, nodes, I, J), (j - J * cells) / double(cells),
+                                 (i - I * cells) / double(cells));
+              ++adjacent;
+            }
+          const double mean = 1.0 / adjacent;
+          metric.g11(m, i, j) = Real(mean * sum.g11);
+          metric.g12(m, i, j) = Real(mean * sum.g12);
+          metric.g22(m, i, j) = Real(mean * sum.g22);
+          metric.b1(m, i, j) = Real(mean * sum.b1);
+          metric.b2(m, i, j) = Real(mean * sum.b2);
+        });
+    return bounds(space, nodes);
+  }
+
+  struct NodeMetric {
+    double g11, g12, g22, b1, b2;
+    KOKKOS_INLINE_FUNCTION void operator+=(const NodeMetric& o) {
+      g11 += o.g11, g12 += o.g12, g22 += o.g22, b1 += o.b1, b2 += o.b2;
+    }
+  };
+
+  // C^-1 and b^N = 2 g^12 (F^-1)^N_k x_k,12 inside one element.
+  KOKKOS_INLINE_FUNCTION static NodeMetric node_metric(const BilinearMap& map, double xi_1, double xi_2) {
+    const Mat2 F = map.deformation_gradient(xi_1, xi_2);
+    const Sym2 g = inverse(right_cauchy_green(F));
+    const double inverse_J = 1 / determinant(F);
+    const double x_12 = map.mixed_derivative(0), y_12 = map.mixed_derivative(1);
+    return {g.m11, g.m12, g.m22, 2 * g.m12 * inverse_J * (F.m22 * x_12 - F.m12 * y_12),
+            2 * g.m12 * inverse_J * (F.m11 * y_12 - F.m21 * x_12)};
+  }
+
+  DeformationBounds bounds(const ExecutionSpace& space, const Nodes<MemorySpace>& nodes) const {
+    const auto elements = elements_;
+    const int cells = cells_;
+    DeformationBounds result;
+    Kokkos::parallel_reduce(
+        "myowave::transfer::deformation_bounds",
+        Kokkos::MDRangePolicy<ExecutionSpace, Kokkos::Rank<2>>(space, {0, 0},
+                                                               {grid_.rows - 1, grid_.columns - 1}),
+        KOKKOS_LAMBDA(int i, int j, double& max_trace, double& min_J) {
+          const int I = i / cells, J = j / cells;
+          const Mat2 F =
+              element_map(elements, nodes, I, J)
+                  .deformation_gradient((j - J * cells + 0.5) / cells, (i - I * cells + 0.5) / cells);
+          const double det_F = determinant(F);
+          max_trace = Kokkos::max(max_trace, trace(right_cauchy_green(F)) / (det_F * det_F));
+          min_J = Kokkos::min(min_J, det_F);
+        },
+        Kokkos::Max<double>(result.max_trace_inverse_C), Kokkos::Min<double>(result.min_J));
+    return result;
+  }
+
+ private:
+  tissue::Grid grid_;
+  elastic::ElementGrid elements_;
+  int cells_ = 1;
+};
+
+}  // namespace myowave::transfer

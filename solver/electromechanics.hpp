@@ -1,0 +1,100 @@
+// The coupled state of one sheet and its advance: explicit steps of the excitation between solves of
+// the mechanics.
+#pragma once
+
+#include <Kokkos_Core.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernels/observe/phase_singularity.hpp"
+#include "solver/equilibrium.hpp"
+#include "solver/run.hpp"
+#include "solver/select_model.hpp"
+#include "solver/stimulus_schedule.hpp"
+
+namespace myowave::solver {
+
+// Areas of the sheet at one solve. Ratios are to the loaded rest state.
+struct AreaSample {
+  double t = 0;
+  double ratio = 1, min_ratio = 1, max_ratio = 1;
+  double shortening = 0;  // 1 - sqrt(area / undeformed area)
+};
+
+// dt must not exceed this: min over FD cells of 2 / (4 D tr C^-1 / dx^2 + k (1 - a)), C_m = 1. Each
+// cell's energy is then bounded by its mass, so that no grid mode grows, for any F.
+double largest_stable_dt(const Scene&, double trace_inverse_C);
+
+template <class ExecutionSpace, class Real>
+class Electromechanics {
+ public:
+  using Space = typename ExecutionSpace::memory_space;
+  using View = EnsembleField<Real, Space>;
+
+  // Solves the loaded rest state (Ta = 0), the reference of all areas, where there is mechanics.
+  // Errors: InputError (dt past the bound of the undeformed sheet), NumericalFailure.
+  Electromechanics(const ExecutionSpace&, const Scene&, const InitialState&, PhaseSeconds&,
+                   MechanicsStatistics&);
+
+  // Steps between solves; 0 in a rigid sheet.
+  int mechanics_interval() const;
+
+  // Equilibrium with the tension of now, then the metric. Errors: NumericalFailure, also where the
+  // new metric makes dt unstable.
+  void solve_mechanics(double t);
+
+  // `count` explicit steps from step `first`; t = step dt. Appends V at the probes before each step.
+  void advance(std::int64_t first, std::int64_t count);
+
+  // Errors: NumericalFailure with time and node where V, r or Ta is not finite.
+  void check_finite(double t) const;
+
+  struct Activity {
+    std::vector<Tip> tips;  // row-major order of their squares
+    double largest_V = 0;
+  };
+  Activity find_tips(double t);
+
+  // V at the probes of the scene, before each step of the last advance().
+  std::span<const double> probe_history() const { return probe_history_; }
+  // V, r, Ta of each probe now.
+  std::vector<double> probe_values() const;
+
+  const AreaSample& area() const { return area_; }  // at the last solve
+  bool deforms() const { return equilibrium_.has_value(); }
+
+  InitialState download() const;
+  std::vector<double> download_nodes() const;
+  bool more_stimuli(double t) const { return schedule_.more_to_come(t); }
+  double stimulus_period() const { return schedule_.last_period(); }
+
+ private:
+  void measure_area(double t);
+  void refresh_metric(double t);
+
+  ExecutionSpace space_;
+  Scene scene_;
+  PhaseSeconds* phases_;
+  MechanicsStatistics* statistics_;
+  tissue::Grid grid_;
+  StimulusSchedule schedule_;
+  Model<Real> model_;
+  typename ModelForms<ExecutionSpace, Real>::Any form_;
+  View V_, V_next_, r_, Ta_;
+
+  std::optional<Equilibrium<ExecutionSpace>> equilibrium_;
+  GaussTension<Space> gauss_tension_;
+  Kokkos::View<double*, Space> element_areas_;
+  std::vector<double> rest_areas_;
+  AreaSample area_;
+
+  std::vector<double> probe_history_;
+  Kokkos::View<std::int64_t*, Space> probe_nodes_;                 // linear index of each probe
+  Kokkos::View<Real**, Kokkos::LayoutRight, Space> probe_record_;  // (step, probe)
+  Kokkos::View<int, Space> tip_count_;
+  Kokkos::View<observe::PhaseSingularity*, Space> tip_list_;
+  Kokkos::View<tissue::ActiveStimulus*, Space> active_stimuli_;
+};
+
+}  // namespace myowave::solver

@@ -1,0 +1,117 @@
+#include "solver/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
+#include "kernels/elastic/element.hpp"
+#include "solver/error.hpp"
+
+namespace myowave::solver {
+namespace {
+
+// Unknown of dof a = 2 c + i of element e.
+int element_unknown(const Mesh& mesh, int e, int a) {
+  return mesh.unknown[2 * mesh.grid.corner(e, a / 2) + a % 2];
+}
+
+// Rows of the lower triangle: node n couples with itself and the up to eight nodes around it, and
+// unknowns ascend with the nodes.
+void build_pattern(Mesh& mesh) {
+  const auto& grid = mesh.grid;
+  mesh.row_begin.assign(1, 0);
+  for (int I = 0; I <= grid.rows; ++I) {
+    for (int J = 0; J <= grid.columns; ++J) {
+      for (int i = 0; i < 2; ++i) {
+        const int row = mesh.unknown[2 * grid.node(I, J) + i];
+        if (row < 0) continue;
+        for (int K = std::max(I - 1, 0); K <= std::min(I + 1, grid.rows); ++K) {
+          for (int L = std::max(J - 1, 0); L <= std::min(J + 1, grid.columns); ++L) {
+            for (int j = 0; j < 2; ++j) {
+              const int column = mesh.unknown[2 * grid.node(K, L) + j];
+              if (column >= 0 && column <= row) mesh.column.push_back(column);
+            }
+          }
+        }
+        mesh.row_begin.push_back(static_cast<int>(mesh.column.size()));
+      }
+    }
+  }
+}
+
+int slot_of(const Mesh& mesh, int row, int column) {
+  const auto first = mesh.column.begin() + mesh.row_begin[row];
+  const auto last = mesh.column.begin() + mesh.row_begin[row + 1];
+  return static_cast<int>(std::lower_bound(first, last, column) - mesh.column.begin());
+}
+
+// Calls visit(slot, source) for every entry of every element's tangent that is in the system, in
+// the order of the elements.
+template <class Visit>
+void for_each_source(const Mesh& mesh, Visit visit) {
+  for (int e = 0; e < mesh.grid.elements(); ++e) {
+    for (int a = 0; a < elastic::element_dofs; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        const int row = element_unknown(mesh, e, a), column = element_unknown(mesh, e, b);
+        if (row < 0 || column < 0) continue;
+        visit(slot_of(mesh, std::max(row, column), std::min(row, column)),
+              elastic::tangent_entries * e + elastic::tangent_entry(a, b));
+      }
+    }
+  }
+}
+
+void build_gather(Mesh& mesh) {
+  mesh.slot_begin.assign(mesh.column.size() + 1, 0);
+  for_each_source(mesh, [&](int slot, int) { ++mesh.slot_begin[slot + 1]; });
+  std::partial_sum(mesh.slot_begin.begin(), mesh.slot_begin.end(), mesh.slot_begin.begin());
+  mesh.slot_source.resize(mesh.slot_begin.back());
+  std::vector<int> next(mesh.slot_begin.begin(), mesh.slot_begin.end() - 1);
+  for_each_source(mesh, [&](int slot, int source) { mesh.slot_source[next[slot]++] = source; });
+}
+
+}  // namespace
+
+std::vector<bool> held_components(const elastic::ElementGrid& grid, Edges edges) {
+  std::vector<bool> held(2 * static_cast<std::size_t>(grid.nodes()), false);
+  if (edges == Edges::load) {
+    const int middle = grid.node(grid.rows / 2, grid.columns / 2);
+    held[2 * middle] = held[2 * middle + 1] = true;
+    held[2 * (middle + 1) + 1] = true;
+    return held;
+  }
+  for (int I = 0; I <= grid.rows; ++I) {
+    for (int J = 0; J <= grid.columns; ++J) {
+      if (I > 0 && I < grid.rows && J > 0 && J < grid.columns) continue;
+      held[2 * grid.node(I, J)] = held[2 * grid.node(I, J) + 1] = true;
+    }
+  }
+  return held;
+}
+
+Mesh make_mesh(const elastic::ElementGrid& grid, Edges edges) {
+  if (grid.rows < 1 || grid.columns < 1 || !(grid.h > 0)) {
+    throw InputError(fmt::format(
+        "the element mesh is {} x {} with edge length {}: it needs at least one element each way and a "
+        "positive length; use a larger grid or fewer cells_per_element",
+        grid.rows, grid.columns, grid.h));
+  }
+  if (static_cast<std::int64_t>(grid.rows) * grid.columns >
+      std::numeric_limits<int>::max() / (4 * elastic::tangent_entries)) {
+    throw InputError(fmt::format("the element mesh of {} x {} is too large; use more cells_per_element",
+                                 grid.rows, grid.columns));
+  }
+  Mesh mesh;
+  mesh.grid = grid;
+  for (const bool held : held_components(grid, edges)) {
+    mesh.unknown.push_back(held ? -1 : mesh.unknowns++);
+  }
+  build_pattern(mesh);
+  build_gather(mesh);
+  return mesh;
+}
+
+}  // namespace myowave::solver

@@ -1,0 +1,142 @@
+// Newton's method for a minimum of a potential Pi, globalised by Pi itself.
+//
+// A direction d solves (K + mu I) d = -R. A step length s = 1, 1/2, ... is accepted where the
+// positions are admissible (J > 0 at every corner) and
+//
+//   Pi(x + s d) <= Pi(x) + 1e-4 s (R . d) + 1e-12 |Pi(x)|,
+//
+// the last term being the rounding of Pi, which hides the decrease near the solution. mu is 0
+// until K is not positive definite or no length is accepted; then max(4 mu, 4) kPa. After an
+// accepted step mu/8, and 0 once mu <= 1. A line search on the residual diverges on spiral states,
+// where K is often indefinite on the way.
+//
+// Everything here is serial and in a fixed order: the number of threads changes no decision.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "solver/direct_solver.hpp"
+
+namespace myowave::solver {
+
+struct NewtonSettings {
+  double tolerance = 1e-8;      // of max|R| / residual_unit
+  double residual_unit = 1;     // kPa x length
+  int max_iterations = 60;      // accepted steps; as many shifts
+  int max_halvings = 6;         // of one step
+  double armijo = 1e-4;         // fraction of the linear decrease that a step must reach
+  double energy_noise = 1e-12;  // relative rounding of Pi
+  double first_shift = 4;       // kPa
+  double shift_growth = 4;
+  double shift_decay = 8;
+  double least_shift = 1;  // kPa; at or below, mu = 0
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::int64_t iterations = 0;  // accepted steps
+  std::int64_t factorizations = 0;
+  std::int64_t shifts = 0;  // factorisations of K + mu I
+  std::int64_t halvings = 0;
+  double largest_shift = 0;  // kPa
+  double residual = std::numeric_limits<double>::infinity();
+  double energy = 0;
+  double min_J = 0;
+};
+
+// Energy and smallest corner J at some positions.
+struct Trial {
+  double energy = 0;
+  double min_J = 0;
+  bool admissible() const { return min_J > 0 && std::isfinite(energy); }
+};
+
+// Problem:
+//   Trial evaluate()                              at the current positions
+//   void linearize()                              residual() and tangent() there
+//   std::span<const double> residual(), tangent() the gradient and the values for the DirectSolver
+//   Trial move(direction, length)                 tries positions
+//   void accept()                                 makes the tried positions the current ones
+template <class Problem>
+class Newton {
+ public:
+  Newton(Problem& problem, DirectSolver& solver, const NewtonSettings& settings)
+      : problem_(problem), solver_(solver), settings_(settings) {}
+
+  NewtonReport minimise() {
+    NewtonReport report;
+    Trial current = problem_.evaluate();
+    double shift = 0;
+    while (true) {
+      report.energy = current.energy;
+      report.min_J = current.min_J;
+      if (!current.admissible()) return report;
+      problem_.linearize();
+      report.residual = largest_residual() / settings_.residual_unit;
+      report.converged = report.residual < settings_.tolerance;
+      if (report.converged || report.iterations == settings_.max_iterations) return report;
+
+      while (!step(current, shift, report)) {
+        shift = std::max(settings_.shift_growth * shift, settings_.first_shift);
+        report.largest_shift = std::max(report.largest_shift, shift);
+        if (report.shifts == settings_.max_iterations) return report;
+      }
+      ++report.iterations;
+      shift /= settings_.shift_decay;
+      if (shift <= settings_.least_shift) shift = 0;
+    }
+  }
+
+ private:
+  // One direction and its line search; true where a step was accepted.
+  bool step(Trial& current, double shift, NewtonReport& report) {
+    ++report.factorizations;
+    if (shift > 0) ++report.shifts;
+    if (!solver_.factorize(problem_.tangent(), shift)) return false;
+    const auto residual = problem_.residual();
+    direction_.resize(residual.size());
+    solver_.solve(residual, direction_);
+    double slope = 0;
+    for (std::size_t a = 0; a < residual.size(); ++a) {
+      direction_[a] = -direction_[a];
+      slope += residual[a] * direction_[a];
+    }
+    if (!(slope < 0)) return false;
+    const double noise = settings_.energy_noise * std::abs(current.energy);
+    double length = 1;
+    for (int halving = 0; halving <= settings_.max_halvings; ++halving, length /= 2) {
+      const Trial trial = problem_.move(direction_, length);
+      if (trial.admissible() && trial.energy <= current.energy + settings_.armijo * length * slope + noise) {
+        problem_.accept();
+        current = trial;
+        report.halvings += halving;
+        return true;
+      }
+    }
+    report.halvings += settings_.max_halvings;
+    return false;
+  }
+
+  // Not-a-number wins: it must not pass for a small residual.
+  double largest_residual() const {
+    double largest = 0;
+    for (const double r : problem_.residual()) {
+      if (!(std::abs(r) <= largest)) largest = std::abs(r);
+      if (std::isnan(r)) return r;
+    }
+    return largest;
+  }
+
+  Problem& problem_;
+  DirectSolver& solver_;
+  NewtonSettings settings_;
+  std::vector<double> direction_;
+};
+
+}  // namespace myowave::solver

@@ -1,0 +1,64 @@
+// The only place where a run-time choice becomes a compile-time kernel variant. The lists below make
+// the variants that are instantiated, tested and benchmarked.
+#pragma once
+
+#include <variant>
+
+#include "kernels/cell/active_tension.hpp"
+#include "kernels/cell/aliev_panfilov.hpp"
+#include "kernels/tissue/monodomain_step.hpp"
+#include "kernels/transfer/deformation_to_grid.hpp"
+#include "solver/scene.hpp"
+
+namespace myowave::solver {
+
+template <class Real>
+using Model = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::ActiveTension<Real>>;
+
+// One form of the diffusion term with what refreshes its metric.
+
+template <class ExecutionSpace, class Real>
+struct ModelForms {
+  using Space = typename ExecutionSpace::memory_space;
+  struct Identity {
+    tissue::IdentityDiffusion<Real, Space> diffusion;
+  };
+  struct Conservative {
+    tissue::ConservativeDiffusion<Real, Space> diffusion;
+    transfer::ConservativeTransfer<ExecutionSpace, Real> transfer;
+  };
+  struct Expanded {
+    tissue::ExpandedDiffusion<Real, Space> diffusion;
+    transfer::ExpandedTransfer<ExecutionSpace, Real> transfer;
+  };
+  using Any = std::variant<Identity, Conservative, Expanded>;
+};
+
+template <class ExecutionSpace, class Real>
+typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, const tissue::Grid& grid,
+                                                           const elastic::ElementGrid& elements,
+                                                           int cells_per_element) {
+  using Forms = ModelForms<ExecutionSpace, Real>;
+  using Space = typename Forms::Space;
+  switch (form) {
+    case MetricForm::conservative:
+      return typename Forms::Conservative{{grid, tissue::ConservativeMetric<Real, Space>(1, grid)},
+                                          {grid, elements, cells_per_element}};
+    case MetricForm::expanded:
+      return typename Forms::Expanded{{grid, tissue::ExpandedMetric<Real, Space>(1, grid)},
+                                      {grid, elements, cells_per_element}};
+    case MetricForm::none:
+      break;
+  }
+  return typename Forms::Identity{tissue::IdentityDiffusion<Real, Space>(grid)};
+}
+
+template <class Real>
+Model<Real> make_model(const ExcitationSettings& e, const TensionSettings& t) {
+  return {{Real(e.k), Real(e.a), Real(e.b), Real(e.eps), Real(e.mu1), Real(e.mu2)},
+          {Real(t.k_Ta), Real(t.eps_below), Real(t.eps_above), Real(t.threshold)},
+          Real(e.D),
+          Real(1 / e.C_m)};
+}
+
+}  // namespace myowave::solver

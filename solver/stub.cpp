@@ -1,2 +1,0 @@
-#include "solver/equilibrium.hpp"
-#include "solver/run.hpp"
