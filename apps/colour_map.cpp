@@ -41,11 +41,15 @@ Colour colour_of(double value) {
 }
 
 double luminance(const Colour& colour) {
-  const auto linear = [](std::uint8_t level) {
-    const double c = level / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+  static const auto linear = [] {
+    std::array<double, 256> table;
+    for (std::size_t level = 0; level < table.size(); ++level) {
+      const double c = double(level) / 255;
+      table[level] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    }
+    return table;
+  }();
+  return 0.2126 * linear[colour.red] + 0.7152 * linear[colour.green] + 0.0722 * linear[colour.blue];
 }
 
 }  // namespace myowave::apps

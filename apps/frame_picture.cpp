@@ -147,13 +147,13 @@ void FramePicture::fill_element(Picture& picture, const solver::Frame& frame, st
   }
 }
 
-void FramePicture::draw_lines(Picture& picture, std::span<const double> nodes) const {
+void FramePicture::draw_lines(Picture& picture, Strokes& border, std::span<const double> nodes) const {
   const int rows = std::max(1, shape_.element_rows()), columns = std::max(1, shape_.element_columns());
   const auto node = [&](int I, int J) {
     const std::size_t n = 2 * (std::size_t(I) * std::size_t(columns + 1) + std::size_t(J));
     return to_pixel(nodes[n], nodes[n + 1]);
   };
-  Strokes inner(picture), border(picture);
+  Strokes inner(picture);
   for (int I = 0; I <= rows; ++I) {
     for (int J = 0; J <= columns; ++J) {
       const bool outer_row = I == 0 || I == rows, outer_column = J == 0 || J == columns;
@@ -163,11 +163,9 @@ void FramePicture::draw_lines(Picture& picture, std::span<const double> nodes) c
     }
   }
   inner.paint_contrast(picture, 0.32);
-  border.paint(picture, ink, 1);
 }
 
-void FramePicture::draw_labels(Picture& picture, double t) const {
-  Strokes text(picture);
+void FramePicture::draw_labels(Picture& picture, Strokes& text, double t) const {
   text.text({margin, header - 17.0}, text_height, fmt::format("t = {:.1f} ms", t * ms_per_tu_));
 
   const int left = margin + view_width_ + margin;
@@ -188,7 +186,6 @@ void FramePicture::draw_labels(Picture& picture, double t) const {
     text.text({r + 10, y + 0.5 * label_height}, label_height, label);
   }
   text.text({l + 0.5 * (colour_bar_width - text_width(text_height, "V")) + 2, u - 12}, text_height, "V");
-  text.paint(picture, ink, 1);
 }
 
 Picture FramePicture::draw(const solver::Frame& frame) const {
@@ -199,8 +196,10 @@ Picture FramePicture::draw(const solver::Frame& frame) const {
   for (int I = 0; I < std::max(1, shape_.element_rows()); ++I) {
     for (int J = 0; J < std::max(1, shape_.element_columns()); ++J) fill_element(picture, frame, nodes, I, J);
   }
-  draw_lines(picture, nodes);
-  draw_labels(picture, frame.t);
+  Strokes strokes(picture);
+  draw_lines(picture, strokes, nodes);
+  draw_labels(picture, strokes, frame.t);
+  strokes.paint(picture, ink, 1);
   return picture;
 }
 

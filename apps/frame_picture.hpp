@@ -19,8 +19,8 @@ class FramePicture {
 
  private:
   void fill_element(Picture&, const solver::Frame&, std::span<const double> nodes, int I, int J) const;
-  void draw_lines(Picture&, std::span<const double> nodes) const;
-  void draw_labels(Picture&, double t) const;
+  void draw_lines(Picture&, Strokes& border, std::span<const double> nodes) const;
+  void draw_labels(Picture&, Strokes& text, double t) const;
 
   FrameShape shape_;  // a rigid sheet is drawn as one element
   double ms_per_tu_;

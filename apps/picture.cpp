@@ -52,7 +52,7 @@ const Glyph& glyph_of(char character) {
 double digit(char c) { return c <= '9' ? c - '0' : c - 'A' + 10; }
 
 std::uint8_t mix(std::uint8_t from, std::uint8_t to, double part) {
-  return static_cast<std::uint8_t>(std::lround(from + part * (to - from)));
+  return static_cast<std::uint8_t>(from + part * (to - from) + 0.5);
 }
 
 Colour mix(const Colour& from, const Colour& to, double part) {
@@ -83,7 +83,7 @@ std::string Picture::png() const {
 Strokes::Strokes(const Picture& picture)
     : width_(picture.width()),
       height_(picture.height()),
-      coverage_(std::size_t(width_) * std::size_t(height_), 0.0f) {}
+      coverage_(std::size_t(width_) * std::size_t(height_), 0) {}
 
 void Strokes::line(Point from, Point to, double width) {
   const double reach = 0.5 * width + 0.5;
@@ -99,9 +99,11 @@ void Strokes::line(Point from, Point to, double width) {
     for (int x = first_x; x <= last_x; ++x) {
       const Point d{x - from.x, y - from.y};
       const double part = length2 > 0 ? std::clamp((d.x * along.x + d.y * along.y) / length2, 0.0, 1.0) : 0.0;
-      const double distance = std::hypot(d.x - part * along.x, d.y - part * along.y);
+      const Point off{d.x - part * along.x, d.y - part * along.y};
+      const double distance = std::sqrt(off.x * off.x + off.y * off.y);
       auto& covered = coverage_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-      covered = std::max(covered, float(std::clamp(reach - distance, 0.0, 1.0)));
+      covered =
+          std::max(covered, static_cast<std::uint8_t>(255 * std::clamp(reach - distance, 0.0, 1.0) + 0.5));
     }
   }
 }
@@ -132,7 +134,7 @@ void Strokes::paint(Picture& picture, Colour colour, double opacity) const {
   for (std::size_t n = 0; n < coverage_.size(); ++n) {
     if (coverage_[n] == 0) continue;
     auto& pixel = picture.at(int(n) % width_, int(n) / width_);
-    pixel = mix(pixel, colour, opacity * coverage_[n]);
+    pixel = mix(pixel, colour, opacity / 255 * coverage_[n]);
   }
 }
 
@@ -143,7 +145,7 @@ void Strokes::paint_contrast(Picture& picture, double opacity) const {
     if (coverage_[n] == 0) continue;
     auto& pixel = picture.at(int(n) % width_, int(n) / width_);
     const Colour ink = luminance(pixel) > middle ? Colour{0, 0, 0} : Colour{255, 255, 255};
-    pixel = mix(pixel, ink, opacity * coverage_[n]);
+    pixel = mix(pixel, ink, opacity / 255 * coverage_[n]);
   }
 }
 

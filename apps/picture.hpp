@@ -1,6 +1,7 @@
 // A picture in memory: pixels, smooth lines and text in a font of strokes.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,7 +50,7 @@ class Strokes {
 
  private:
   int width_, height_;
-  std::vector<float> coverage_;
+  std::vector<std::uint8_t> coverage_;  // 255: all of the pixel
 };
 
 // The width that Strokes::text takes.
