@@ -192,6 +192,10 @@ void run(const RunRequest& request) {
 
 void check(const std::string& file, const std::vector<std::string>& overrides) {
   const solver::Scene scene = load(file, overrides, std::nullopt);
+  const solver::InitialSettings& initial = scene.initial;
+  if (initial.type == solver::InitialSettings::Type::file) {
+    read_state(initial.file, scene.grid.rows, scene.grid.columns, initial.window);
+  }
   fmt::print("{}: valid\n", file);
   for (const std::string& line : solver::model_in_words(scene)) fmt::print("  {}\n", line);
   const std::int64_t steps = step_count(scene.time.t_end, scene);
@@ -207,7 +211,7 @@ void check(const std::string& file, const std::vector<std::string>& overrides) {
     fmt::print("time     {}", seconds_text(time.scene_s));
     if (time.preconditions_s > 0)
       fmt::print(", before it {} of preconditions", seconds_text(time.preconditions_s));
-    if (scene.initial.type == solver::InitialSettings::Type::settled_spiral) {
+    if (initial.type == solver::InitialSettings::Type::settled_spiral) {
       fmt::print("; the settled spiral is computed first where the cache lacks it");
     }
     fmt::print(" (without outputs)\n");

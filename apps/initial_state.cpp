@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "apps/state_cache.hpp"
@@ -87,26 +89,22 @@ InitialState cut(const InitialState& whole, int row0, int column0, int rows, int
   return part;
 }
 
-InitialState settled_spiral(const solver::Scene& scene, solver::OutputSink& progress) {
+// First row and column of the scene's window in the protocol's sheet; empty where it leaves that.
+std::optional<std::array<int, 2>> window_of_protocol(const solver::Scene& scene) {
   const auto& [rows, columns, dx] = scene.grid;
-  if (dx != solver::GridSettings{}.dx) {
-    throw InputError(
-        fmt::format("initial.type = \"settled_spiral\" is defined at grid.dx = {}, not {}: a spiral of "
-                    "another dx starts from \"broken_front\" or a \"file\"",
-                    solver::GridSettings{}.dx, dx));
-  }
   const auto [column_offset, row_offset] = scene.initial.core_offset;
   const int row0 = core_row - (rows - 1) / 2 - row_offset;
   const int column0 = core_column - (columns - 1) / 2 - column_offset;
   const auto inside = [](int first, int count) { return first >= 0 && first + count <= protocol_nodes; };
-  if (inside(row0, rows) && inside(column0, columns)) {
-    return cut(settle(protocol_nodes, protocol_nodes, progress), row0, column0, rows, columns);
-  }
-  if (column_offset != 0 || row_offset != 0) {
-    throw InputError(fmt::format(
-        "initial.core_offset = [{}, {}]: a window of {} x {} nodes with the core there leaves "
-        "the settled sheet of {} x {} (core at row {}, column {})",
-        column_offset, row_offset, rows, columns, protocol_nodes, protocol_nodes, core_row, core_column));
+  return inside(row0, rows) && inside(column0, columns) ? std::optional(std::array{row0, column0})
+                                                        : std::nullopt;
+}
+
+InitialState settled_spiral(const solver::Scene& scene, solver::OutputSink& progress) {
+  require_settled_spiral(scene);
+  const auto& [rows, columns, dx] = scene.grid;
+  if (const auto window = window_of_protocol(scene)) {
+    return cut(settle(protocol_nodes, protocol_nodes, progress), (*window)[0], (*window)[1], rows, columns);
   }
   // A sheet that large has the protocol run on itself; the core is where it settles.
   return settle(rows, columns, progress);
@@ -140,6 +138,23 @@ void add_noise(std::vector<double>& V, double sd, std::uint64_t seed) {
 }
 
 }  // namespace
+
+void require_settled_spiral(const solver::Scene& scene) {
+  const auto& [rows, columns, dx] = scene.grid;
+  if (dx != solver::GridSettings{}.dx) {
+    throw InputError(
+        fmt::format("initial.type = \"settled_spiral\" is defined at grid.dx = {}, not {}: a spiral of "
+                    "another dx starts from \"broken_front\" or a \"file\"",
+                    solver::GridSettings{}.dx, dx));
+  }
+  const auto [column_offset, row_offset] = scene.initial.core_offset;
+  if ((column_offset != 0 || row_offset != 0) && !window_of_protocol(scene)) {
+    throw InputError(fmt::format(
+        "initial.core_offset = [{}, {}]: a window of {} x {} nodes with the core there leaves "
+        "the settled sheet of {} x {} (core at row {}, column {})",
+        column_offset, row_offset, rows, columns, protocol_nodes, protocol_nodes, core_row, core_column));
+  }
+}
 
 InitialState resolve_initial_state(const solver::Scene& scene, solver::OutputSink& progress) {
   InitialState state = from_type(scene, progress);

@@ -11,6 +11,10 @@ namespace myowave::apps {
 solver::InitialState read_state(const std::string& file, int rows, int columns,
                                 const std::optional<std::array<int, 2>>& window);
 
+// Whether a settled spiral can be had on the scene's sheet with its core where the scene wants it.
+// Errors: InputError that says why not.
+void require_settled_spiral(const solver::Scene&);
+
 // The scene's initial state, whatever its type, with its noise. A settled spiral is computed once
 // (`progress` is told) and kept in the user's cache by content hash.
 solver::InitialState resolve_initial_state(const solver::Scene&, solver::OutputSink& progress);

@@ -13,6 +13,7 @@
 #include <set>
 #include <tuple>
 
+#include "apps/initial_state.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
 
@@ -500,10 +501,22 @@ class SceneReader {
     check_unused(section, type);
     if (initial.type == solver::InitialSettings::Type::file) check_file();
     if (!sheet_known_) return;
-    if (initial.type == solver::InitialSettings::Type::broken_front)
+    using Type = solver::InitialSettings::Type;
+    if (initial.type == Type::broken_front)
       check_inside("initial.offset", "the end of the front", initial.offset);
-    if (initial.type == solver::InitialSettings::Type::settled_spiral)
-      check_inside("initial.core_offset", "the core", initial.core_offset);
+    if (initial.type == Type::settled_spiral && fine({"grid.dx"}) &&
+        check_inside("initial.core_offset", "the core", initial.core_offset)) {
+      check_settled_spiral();
+    }
+  }
+
+  void check_settled_spiral() {
+    try {
+      require_settled_spiral(scene_);
+    } catch (const InputError& error) {
+      const bool own_dx = scene_.grid.dx != solver::GridSettings{}.dx;
+      conflict({own_dx ? "grid.dx" : "initial.core_offset"}, error.what());
+    }
   }
 
   // A key of another type would be ignored. Where --set chose the type, the file's keys for its own
@@ -540,13 +553,14 @@ class SceneReader {
   }
 
   // `offset` [columns, rows] from the middle of the sheet.
-  void check_inside(const std::string& path, std::string_view what, const std::array<int, 2>& offset) {
-    if (!fine({path})) return;
+  bool check_inside(const std::string& path, std::string_view what, const std::array<int, 2>& offset) {
+    if (!fine({path})) return false;
     const std::int64_t column = (scene_.grid.columns - 1) / 2 + std::int64_t{offset[0]};
     const std::int64_t row = (scene_.grid.rows - 1) / 2 + std::int64_t{offset[1]};
-    if (column >= 0 && column < scene_.grid.columns && row >= 0 && row < scene_.grid.rows) return;
+    if (column >= 0 && column < scene_.grid.columns && row >= 0 && row < scene_.grid.rows) return true;
     conflict({path}, fmt::format("{} = [{}, {}] puts {} at column {}, row {}, outside of the sheet ({})",
                                  path, offset[0], offset[1], what, column, row, sheet_text()));
+    return false;
   }
 
   std::string sheet_text() const {

@@ -5,16 +5,17 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "apps/scene_file.hpp"
 #include "solver/error.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
 using namespace myowave;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 struct BadScene {
   const char* what;
@@ -125,6 +126,14 @@ const BadScene bad_scenes[] = {
      ":5:15: initial.core_offset = [-16, 0] puts the core at column -1, row 15, outside of the sheet "
      "(columns 0 to 30, "
      "rows 0 to 30)"},
+    {"settled_spiral_of_another_dx", "[grid]\ndx = 0.3\n[initial]\ntype = 'settled_spiral'",
+     ":2:6: initial.type = \"settled_spiral\" is defined at grid.dx = 0.6, not 0.3: a spiral of another dx "
+     "starts from "
+     "\"broken_front\" or a \"file\""},
+    {"core_that_the_settled_sheet_lacks", "[initial]\ntype = 'settled_spiral'\ncore_offset = [9, 0]",
+     ":3:15: initial.core_offset = [9, 0]: a window of 251 x 251 nodes with the core there leaves the "
+     "settled sheet of 251 "
+     "x 251 (core at row 81, column 131)"},
     {"offset_of_fractions", "[initial]\ntype = 'broken_front'\noffset = [0.5, 1]",
      ":3:10: initial.offset must be [columns, rows], two integers (nodes), not an array of 2"},
     {"file_not_named", "[initial]\ntype = 'file'",
@@ -263,18 +272,12 @@ TEST(bad_scenes, errors_of_set_are_named_by_their_key) {
 
 class Executable : public ::testing::Test {
  protected:
-  Executable() : folder_(::testing::TempDir() + "myowave_bad_scenes") {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Executable() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return (folder_ / name).string();
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Executable, refuses_the_table_with_status_2_and_leaves_no_folder) {
@@ -301,7 +304,7 @@ TEST_F(Executable, meets_nasty_files_with_status_2) {
   for (int i = 0; i < 100000; ++i) digits += " . 1.1";
   const std::pair<std::string, const char*> cases[] = {
       {(folder_ / "absent.toml").string(), "there is no such file"},
-      {folder_.string(), "is a folder"},
+      {folder_.path().string(), "is a folder"},
       {"", "there is no such file"},
       {file("binary.toml", binary), "binary.toml:1:"},
       {file("zeros.toml", std::string(1000, '\0')), "zeros.toml:1:"},
@@ -336,6 +339,50 @@ TEST_F(Executable, refuses_more_memory_than_is_free_before_it_takes_any) {
     EXPECT_THAT(outcome.errors, HasSubstr("scene \"huge\" (2000000 x 2000000 nodes) needs"));
     EXPECT_THAT(outcome.errors, HasSubstr("are free"));
   }
+}
+
+TEST_F(Executable, check_looks_into_the_file_of_the_initial_state) {
+  const std::string state = file("state.h5", "no HDF5");
+  const std::string scene =
+      file("from_file.toml", "[grid]\nn = 11\n[initial]\ntype = 'file'\nfile = 'state.h5'");
+  const test::Outcome outcome = test::run_myowave({"check", scene});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr(state));
+}
+
+TEST_F(Executable, a_run_refused_at_its_start_leaves_no_folder) {
+  // Past the stability bound of the rigid sheet, which the file alone does not tell.
+  const std::string scene = file("unstable.toml", "grid.n = 11\ntime.dt = 0.1");
+  const std::string out = (folder_ / "out").string();
+  const test::Outcome outcome = test::run_myowave({"run", scene, "--out", out});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("dt"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(Executable, results_are_replaced_only_by_force) {
+  const std::string scene = file("short.toml", "grid.n = 11\ntime.t_end = 1");
+  const std::string out = (folder_ / "out").string();
+  EXPECT_EQ(test::run_myowave({"run", scene, "--out", out}).status, 0);
+  const test::Outcome refused = test::run_myowave({"run", scene, "--out", out});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("--force"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/summary.json")) << "a refusal takes nothing away";
+  EXPECT_EQ(test::run_myowave({"run", scene, "--out", out, "--force", "--until", "2"}).status, 0);
+  const auto summary = nlohmann::json::parse(std::ifstream(out + "/summary.json"));
+  EXPECT_EQ(summary["t"], 2.0);
+}
+
+TEST_F(Executable, a_sheet_without_equilibrium_is_status_3_and_leaves_a_summary_that_says_so) {
+  // c2 = 0: no equilibrium under p = 10 kN/m.
+  const std::string scene = file("soft.toml", "grid.n = 21\ntime.t_end = 1\nmechanics.c2 = 0");
+  const std::string out = (folder_ / "out").string();
+  const test::Outcome outcome = test::run_myowave({"run", scene, "--out", out, "--quiet"});
+  EXPECT_EQ(outcome.status, 3) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("the numerics failed"));
+  const auto summary = nlohmann::json::parse(std::ifstream(out + "/summary.json"));
+  EXPECT_TRUE(summary["failure"].is_string());
+  EXPECT_EQ(outcome.output, "");
 }
 
 TEST_F(Executable, bad_usage_is_status_2_and_says_what_to_do) {

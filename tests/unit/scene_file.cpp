@@ -9,6 +9,7 @@
 #include "apps/memory.hpp"
 #include "solver/error.hpp"
 #include "solver/run.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -165,8 +166,8 @@ TEST(scene_file, default_probes_are_a_quarter_from_the_corners) {
 }
 
 TEST(scene_file, paths_are_relative_to_the_file_and_of_set_to_the_working_directory) {
-  const std::string folder = ::testing::TempDir() + "myowave_scene_paths";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder temporary;
+  const std::string folder = temporary.path().string();
   const std::string state = folder + "/state.h5";
   std::ofstream(state) << "not looked into here";
   const std::string text = "[initial]\ntype = 'file'\nfile = 'state.h5'";
@@ -176,7 +177,6 @@ TEST(scene_file, paths_are_relative_to_the_file_and_of_set_to_the_working_direct
   EXPECT_EQ(
       parse_scene("initial.type = 'file'\ninitial.file = '" + state + "'", "elsewhere/a.toml").initial.file,
       state);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(scene_file, set_takes_bare_and_quoted_strings_arrays_and_tables) {
