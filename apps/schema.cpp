@@ -330,7 +330,7 @@ nlohmann::json value_of(const Key& key, const Target& target) {
 
 nlohmann::json values_of(const Section& section, const Target& target) {
   nlohmann::json values = nlohmann::json::object();
-  const nlohmann::json type = value_of(*find_key(*find_section("initial"), "type"), target);
+  const auto type = value_of(*find_key(*find_section("initial"), "type"), target).get<std::string>();
   for (std::string_view other : section.inherits) values.update(values_of(*find_section(other), target));
   for (const Key& key : section.keys) {
     if (!key.only_type.empty() && key.only_type != type) continue;
