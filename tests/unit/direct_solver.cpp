@@ -15,7 +15,7 @@ const std::vector<int> row_begin{0, 1, 3, 5}, column{0, 0, 1, 1, 2};
 
 TEST(DirectSolver, SolvesAHandCase) {
   DirectSolver solver(row_begin, column);
-  ASSERT_TRUE(solver.factorize(std::vector<double>{4, 1, 3, -1, 2}));
+  ASSERT_EQ(solver.factorize(std::vector<double>{4, 1, 3, -1, 2}), Factorization::positive_definite);
   std::vector<double> x(3);
   solver.solve(std::vector<double>{6, 4, 4}, x);  // of x = (1, 2, 3)
   EXPECT_NEAR(x[0], 1, 1e-15);
@@ -25,10 +25,14 @@ TEST(DirectSolver, SolvesAHandCase) {
 
 TEST(DirectSolver, TellsAnIndefiniteMatrixAndRecovers) {
   DirectSolver solver(row_begin, column);
-  EXPECT_FALSE(solver.factorize(std::vector<double>{4, 1, -3, -1, 2}));
-  EXPECT_FALSE(solver.factorize(std::vector<double>{4, 4, 3, -1, 2}));  // indefinite, positive diagonal
-  EXPECT_FALSE(solver.factorize(std::vector<double>{0, 0, 0, 0, 0}));
-  EXPECT_TRUE(solver.factorize(std::vector<double>{4, 1, 3, -1, 2}));
+  EXPECT_EQ(solver.factorize(std::vector<double>{4, 1, -3, -1, 2}), Factorization::indefinite);
+  std::vector<double> y(3);
+  solver.solve(std::vector<double>{6, -8, 4}, y);  // of (1, 2, 3) all the same
+  EXPECT_NEAR(y[1], 2, 1e-15);
+  EXPECT_EQ(solver.factorize(std::vector<double>{4, 4, 3, -1, 2}),
+            Factorization::indefinite);  // indefinite, positive diagonal
+  EXPECT_EQ(solver.factorize(std::vector<double>{0, 0, 0, 0, 0}), Factorization::failed);
+  EXPECT_EQ(solver.factorize(std::vector<double>{4, 1, 3, -1, 2}), Factorization::positive_definite);
   std::vector<double> x(3);
   solver.solve(std::vector<double>{6, 4, 4}, x);
   EXPECT_NEAR(x[2], 3, 1e-15);
@@ -39,7 +43,7 @@ TEST(DirectSolver, SolvesTheMeshOfThePaper) {
   DirectSolver solver(mesh.row_begin, mesh.column);
   std::vector<double> A = mesh.gradient_product;
   for (int row = 0; row < mesh.unknowns; ++row) A[mesh.row_begin[row + 1] - 1] += 0.1;
-  ASSERT_TRUE(solver.factorize(A));
+  ASSERT_EQ(solver.factorize(A), Factorization::positive_definite);
   test::Uniform uniform(1);
   std::vector<double> x(mesh.unknowns), b(mesh.unknowns), found(mesh.unknowns);
   for (double& v : x) v = uniform(-1, 1);
