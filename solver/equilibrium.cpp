@@ -1,7 +1,5 @@
 #include "solver/equilibrium.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -181,10 +179,7 @@ void Equilibrium<ExecutionSpace>::Impl::fail(const Tension& Ta, double time, con
     const int row = e / grid.columns, column = e % grid.columns;
     for (int q = 0; q < elastic::gauss_points; ++q) {
       if (!std::isfinite(Ta_host(e, q))) {
-        throw NumericalFailure(fmt::format(
-            "mechanics at t = {:g} t.u.: the active tension is not finite in element (row {}, column {}).\n"
-            "The excitation has blown up: lower time.dt.",
-            time, row, column));
+        throw NumericalFailure(broken_tension_message(time, row, column));
       }
       state.min_Ta = std::min(state.min_Ta, Ta_host(e, q));
       state.max_Ta = std::max(state.max_Ta, Ta_host(e, q));
