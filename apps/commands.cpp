@@ -10,6 +10,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "apps/initial_state.hpp"
 #include "apps/memory.hpp"
@@ -74,8 +75,8 @@ std::string time_text(double t, const solver::Scene& scene) {
   return fmt::format("{:g} t.u. ({:g} ms)", t, t * scene.time.ms_per_tu);
 }
 
-std::string mean_text(const solver::MeanSd& value) {
-  return fmt::format("{:.2f} +- {:.2f} (n = {})", value.mean, value.sd, value.n);
+std::string mean_text(const solver::MeanSd& value, std::string_view unit) {
+  return fmt::format("{:.2f} +- {:.2f}{} (n = {})", value.mean, value.sd, unit, value.n);
 }
 
 void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
@@ -83,8 +84,8 @@ void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
   const solver::Observables& seen = summary.observables;
   fmt::print("{}: t = {} in {:.1f} s, {:.0f} Mcell-steps/s\n", scene.name, time_text(summary.t, scene),
              summary.wall_s, summary.cell_steps_per_s / 1e6);
-  if (seen.period.n > 0) fmt::print("  period      {} t.u.\n", mean_text(seen.period));
-  if (seen.tips.n > 0) fmt::print("  tips        {}\n", mean_text(seen.tips));
+  if (seen.period.n > 0) fmt::print("  period      {}\n", mean_text(seen.period, " t.u."));
+  if (seen.tips.n > 0) fmt::print("  tips        {}\n", mean_text(seen.tips, ""));
   if (seen.breakup_tu) fmt::print("  break-up    at {}\n", time_text(*seen.breakup_tu, scene));
   if (seen.death_tu) fmt::print("  died        at {}\n", time_text(*seen.death_tu, scene));
   if (seen.area)
@@ -168,9 +169,9 @@ Estimate estimate(const solver::Scene& scene) {
 
 std::string seconds_text(double seconds) {
   if (seconds < 1) return "less than 1 s";
-  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
+  if (seconds < 120) return fmt::format("about {:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("about {:.0f} min", seconds / 60);
+  return fmt::format("about {:.1f} h", seconds / 3600);
 }
 
 }  // namespace
@@ -203,7 +204,7 @@ void check(const std::string& file, const std::vector<std::string>& overrides) {
   const Device device;
   try {
     const Estimate time = estimate(scene);
-    fmt::print("time     about {}", seconds_text(time.scene_s));
+    fmt::print("time     {}", seconds_text(time.scene_s));
     if (time.preconditions_s > 0)
       fmt::print(", before it {} of preconditions", seconds_text(time.preconditions_s));
     if (scene.initial.type == solver::InitialSettings::Type::settled_spiral) {

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/schema.hpp"
 #include "myowave_version.hpp"
 #include "solver/error.hpp"
 
@@ -79,6 +82,15 @@ int main(int argc, char** argv) {
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
+  // CLI11 would only say that a subcommand is missing.
+  const std::vector<std::string_view> names{"run", "check", "describe", "info"};
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
+    const std::string meant = apps::did_you_mean(argv[1], names);
+    fmt::print(stderr,
+               "myowave: there is no subcommand \"{}\"{}\nRun `myowave --help` for what can be asked.\n",
+               argv[1], meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
+    return 2;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

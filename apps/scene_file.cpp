@@ -424,15 +424,16 @@ class SceneReader {
                                 [&](std::string_view path) { return wrong_.contains(std::string(path)); });
   }
 
-  // Reports at the first of the paths that the scene gives.
+  // Reports at the first of the paths that the scene gives, one of --set before one of the file.
   void conflict(std::initializer_list<std::string> paths, const std::string& message) {
+    const toml::node* place = nullptr;
     for (const std::string& path : paths) {
-      if (const auto found = given_.find(path); found != given_.end()) {
-        problems_.add(found->second->source(), message);
-        return;
-      }
+      const auto found = given_.find(path);
+      if (found == given_.end()) continue;
+      if (place == nullptr || (is_override(found->second->source()) && !is_override(place->source())))
+        place = found->second;
     }
-    problems_.add({}, message);
+    problems_.add(place == nullptr ? toml::source_region{} : place->source(), message);
   }
 
   void check_time() {
@@ -619,7 +620,11 @@ class SceneReader {
 
   void check_output() {
     solver::OutputSettings& output = scene_.output;
-    check_multiple("output.every", output.every);
+    if (given_.contains("output.every")) {
+      check_multiple("output.every", output.every);
+    } else if (fine({"time.dt"})) {
+      follow_step(output);
+    }
     if (output.tips_every != output.every) check_multiple("output.tips_every", output.tips_every);
     if (output.probes_every != output.every) check_multiple("output.probes_every", output.probes_every);
     if (!sheet_known_) return;
@@ -635,6 +640,15 @@ class SceneReader {
                fmt::format("output.probes: [{}, {}] (row, column) is outside of the sheet ({})", row, column,
                            sheet_text()));
     }
+  }
+
+  // A default that no step meets would be nobody's mistake: the multiple of dt that is nearest to it.
+  void follow_step(solver::OutputSettings& output) const {
+    const double dt = scene_.time.dt;
+    const double every = std::max(1.0, std::round(output.every / dt)) * dt;
+    if (!given_.contains("output.tips_every")) output.tips_every = every;
+    if (!given_.contains("output.probes_every")) output.probes_every = every;
+    output.every = every;
   }
 
   void check_multiple(const std::string& path, double every) {
@@ -708,6 +722,18 @@ toml::table override_table(const std::string& key, const std::string& value) {
   return toml::parse(fmt::format("{} = {}", key, toml_string(value)), source);
 }
 
+// Elements of an array of tables can be changed, not made one by one.
+void require_no_index(const std::vector<std::string>& path, std::size_t from) {
+  std::string section;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    section += (section.empty() ? "" : ".") + path[i];
+    const Section* known = find_section(section);
+    if (i >= from && known != nullptr && known->repeated && is_index(path[i + 1])) {
+      throw InputError(fmt::format("there is no {} {}: the scene has 0", section, path[i + 1]));
+    }
+  }
+}
+
 // Puts the override's value where the path leads. Errors: InputError where it leads nowhere.
 void merge(toml::table& root, toml::table&& given, const std::vector<std::string>& path) {
   toml::node* into = &root;
@@ -737,10 +763,7 @@ void merge(toml::table& root, toml::table&& given, const std::vector<std::string
       } else if (repeated && is_index(name)) {
         throw InputError(fmt::format("there is no {} {}: the scene has 1", section, name));
       } else if (next == nullptr || last) {
-        const Section* inserted = find_section(section.empty() ? name : section + "." + name);
-        if (next == nullptr && !last && inserted != nullptr && inserted->repeated && is_index(path[i + 1])) {
-          throw InputError(fmt::format("there is no {} {}: the scene has 0", inserted->name, path[i + 1]));
-        }
+        if (next == nullptr) require_no_index(path, i);
         // The parsed key, not its text: it knows where it comes from.
         table->insert_or_assign(from->find(name)->first, std::move(value));
         return;
@@ -782,6 +805,36 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
   }
 }
 
+// The parser builds and takes down nested tables recursively, and dotted keys nest without a limit of
+// its own. Dots of numbers apart, a scene has few.
+void require_few_dots(std::string_view text, Problems& problems) {
+  constexpr int most_dots = 2000;
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+  };
+  int dots = 0;
+  bool number_has_dot = false;
+  toml::source_index line = 1, column = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    ++column;
+    if (text[i] == '\n') {
+      ++line;
+      column = 0;
+    }
+    if (text[i] != '.') {
+      number_has_dot = number_has_dot && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+      continue;
+    }
+    if (!number_has_dot && i > 0 && is_digit(i - 1) && is_digit(i + 1)) {
+      number_has_dot = true;
+    } else if (++dots > most_dots) {
+      problems.add({{line, column}, {line, column}, nullptr},
+                   fmt::format("more than {} dots outside of numbers: this is no scene", most_dots));
+      problems.throw_if_any();
+    }
+  }
+}
+
 std::string file_text(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -809,6 +862,7 @@ std::string file_text(const std::filesystem::path& file) {
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const std::vector<std::string>& overrides) {
   Problems problems(file.string());
+  require_few_dots(text, problems);
   toml::table root;
   try {
     root = toml::parse(text, file.string());

@@ -6,6 +6,8 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
 add_library(myowave_options INTERFACE)
 target_compile_features(myowave_options INTERFACE cxx_std_20)
+# fmt 9 drops constexpr for nvcc, although its consteval format strings then do not compile.
+target_compile_definitions(myowave_options INTERFACE FMT_USE_CONSTEXPR=1)
 # Warnings and code generation are the host compiler's own; nvcc and hipcc bring theirs.
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(myowave_options INTERFACE -Wall -Wextra -Wshadow)

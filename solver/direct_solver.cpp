@@ -27,8 +27,7 @@ struct DirectSolver::Impl {
     cholmod_start(&common);
     common.print = 0;  // "not positive definite" is an answer, no message
     common.supernodal = CHOLMOD_SIMPLICIAL;
-    common.final_ll = true;
-    common.quick_return_if_not_posdef = true;
+    common.final_ll = false;
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_AMD;
     common.postorder = true;
@@ -78,13 +77,22 @@ DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 
-bool DirectSolver::factorize(std::span<const double> values, double shift) {
+Factorization DirectSolver::factorize(std::span<const double> values) {
   auto& impl = *impl_;
   impl.matrix.x = const_cast<double*>(values.data());  // only read
-  double beta[2] = {shift, 0};
-  cholmod_factorize_p(&impl.matrix, beta, nullptr, 0, impl.factor, &impl.common);
+  cholmod_factorize(&impl.matrix, impl.factor, &impl.common);
   impl.check("factorisation");
-  return impl.common.status == CHOLMOD_OK && impl.factor->minor == impl.factor->n;
+  if (impl.common.status != CHOLMOD_OK || impl.factor->minor != impl.factor->n) return Factorization::failed;
+  // D stands on the diagonal of L.
+  const auto* begin = static_cast<const int*>(impl.factor->p);
+  const auto* L = static_cast<const double*>(impl.factor->x);
+  bool positive = true;
+  for (std::size_t j = 0; j < impl.factor->n; ++j) {
+    const double pivot = L[begin[j]];
+    if (!std::isfinite(pivot)) return Factorization::failed;
+    positive = positive && pivot > 0;
+  }
+  return positive ? Factorization::positive_definite : Factorization::indefinite;
 }
 
 void DirectSolver::solve(std::span<const double> rhs, std::span<double> solution) {

@@ -1,4 +1,4 @@
-// Sparse Cholesky factorisation of A + shift I, of a symmetric A with a fixed pattern.
+// Sparse LDL^T factorisation of symmetric matrices of one pattern, definite or not.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,8 @@
 #include <span>
 
 namespace myowave::solver {
+
+enum class Factorization { positive_definite, indefinite, failed };
 
 class DirectSolver {
  public:
@@ -16,11 +18,11 @@ class DirectSolver {
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
-  // A + shift I = L L^T, values in the order of `column`. False: not positive definite, and there
-  // is no factor.
-  bool factorize(std::span<const double> values, double shift);
+  // A = L D L^T without pivoting, values in the order of `column`. failed: a pivot is zero or not
+  // finite, and there is no factor.
+  Factorization factorize(std::span<const double> values);
 
-  // solution = (A + shift I)^-1 rhs with the last factor.
+  // solution = A^-1 rhs with the last factor.
   void solve(std::span<const double> rhs, std::span<double> solution);
 
   // Entries of L that the ordering needs.

@@ -89,10 +89,10 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
   constexpr double undeformed_trace = 2;
   const double bound = largest_stable_dt(scene, undeformed_trace);
   if (scene.time.dt > bound)
-    throw InputError(
-        fmt::format("time.dt = {} is past the stability bound {:.6g} of the undeformed sheet, "
-                    "2 C_m / (8 D / dx^2 + k |1 - a|): use a dt of at most that, or a larger grid.dx",
-                    scene.time.dt, bound));
+    throw InputError(fmt::format(
+        "time.dt = {} is past the stability bound {:.6g} of the undeformed sheet, "
+        "2 C_m / (8 D / dx^2 + k |1 - a|). Set time.dt to {:.3g} or less, or use a larger grid.dx",
+        scene.time.dt, bound, 0.99 * bound));
   upload(V_, state.V);
   upload(r_, state.r);
   upload(Ta_, state.Ta);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <utility>
 
 #include "kernels/elastic/assemble.hpp"
 #include "solver/direct_solver.hpp"
+#include "solver/equibiaxial.hpp"
+#include "solver/equilibrium_failure.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh.hpp"
 #include "solver/newton.hpp"
@@ -30,28 +32,12 @@ elastic::Membrane membrane_of(const MechanicsSettings& settings) {
   return membrane;
 }
 
-// What was done in one solve, for its report and for the message of its failure.
-struct Effort {
-  std::int64_t iterations = 0, factorizations = 0, shifts = 0, halvings = 0, ramp_steps = 0;
-  double largest_shift = 0;  // kPa
-  double ramp_reached = -1;  // fraction of the tension; < 0: no ramp was tried
-  NewtonReport last;
-
-  void add(const NewtonReport& report) {
-    iterations += report.iterations;
-    factorizations += report.factorizations;
-    shifts += report.shifts;
-    halvings += report.halvings;
-    largest_shift = std::max(largest_shift, report.largest_shift);
-    last = report;
-  }
-};
-
 }  // namespace
 
 template <class ExecutionSpace>
 struct Equilibrium<ExecutionSpace>::Impl {
-  using HostNodes = typename Nodes<MemorySpace>::host_mirror_type;
+  using Tension = GaussTension<MemorySpace>;
+  using Numbers = elastic::Numbers<MemorySpace>;
 
   elastic::ElementGrid grid;
   MechanicsSettings settings;
@@ -61,17 +47,17 @@ struct Equilibrium<ExecutionSpace>::Impl {
   SparseSystem<ExecutionSpace> system;
 
   Nodes<MemorySpace> nodes;    // the last equilibrium, or the undeformed sheet
+  Nodes<MemorySpace> start;    // where Newton starts: `nodes`, or the last part of a ramp
   Nodes<MemorySpace> current;  // of the iteration
   Nodes<MemorySpace> tried;
-  Nodes<MemorySpace> ramped;  // the last equilibrium of a ramp
   Nodes<MemorySpace> direction;
-  HostNodes direction_host;
-  elastic::Numbers<MemorySpace> energy;  // by element
-  typename elastic::Numbers<MemorySpace>::host_mirror_type energy_host;
+  typename Nodes<MemorySpace>::host_mirror_type direction_host;
+  Numbers energy;  // by element
+  typename Numbers::host_mirror_type energy_host;
 
-  GaussTension<MemorySpace> solved_Ta;  // of `nodes`; zero for the undeformed sheet
-  GaussTension<MemorySpace> mixed_Ta;   // of a part of a ramp
-  bool in_equilibrium = false;          // false: `nodes` are undeformed
+  Tension solved_Ta;            // of `nodes`; zero for the undeformed sheet
+  Tension mixed_Ta;             // of a part of a ramp
+  bool in_equilibrium = false;  // false: `nodes` are undeformed
 
   Impl(const ExecutionSpace& space, const elastic::ElementGrid& grid_in, const MechanicsSettings& settings_in)
       : grid(grid_in),
@@ -81,9 +67,9 @@ struct Equilibrium<ExecutionSpace>::Impl {
         solver(mesh.row_begin, mesh.column),
         system(space, mesh),
         nodes("myowave::elastic::nodes", grid.nodes()),
+        start("myowave::elastic::start_nodes", grid.nodes()),
         current("myowave::elastic::current_nodes", grid.nodes()),
         tried("myowave::elastic::tried_nodes", grid.nodes()),
-        ramped("myowave::elastic::ramped_nodes", grid.nodes()),
         direction("myowave::elastic::direction", grid.nodes()),
         direction_host(Kokkos::create_mirror_view(direction)),
         energy("myowave::elastic::element_energy", grid.elements()),
@@ -91,21 +77,21 @@ struct Equilibrium<ExecutionSpace>::Impl {
         solved_Ta("myowave::elastic::solved_Ta", grid.elements()),
         mixed_Ta("myowave::elastic::mixed_Ta", grid.elements()) {}
 
-  // Newton's view of the sheet under one tension; see solver/newton.hpp.
+  // The sheet under one tension, as Newton sees it; see solver/newton.hpp.
   struct Problem {
     Impl& sheet;
     const ExecutionSpace& space;
-    const GaussTension<MemorySpace>& Ta;
+    const Tension& Ta;
 
     Trial evaluate() { return trial_at(sheet.current); }
     void linearize() { sheet.system.assemble(space, sheet.membrane, sheet.grid, sheet.current, Ta); }
     std::span<const double> residual() const { return sheet.system.residual(); }
-    std::span<const double> tangent() const { return sheet.system.tangent(); }
-    Trial move(std::span<const double> step, double length) {
-      if (length == 1) {
-        sheet.system.scatter(step, sheet.direction_host);
-        Kokkos::deep_copy(space, sheet.direction, sheet.direction_host);
-      }
+    std::span<const double> tangent(double shift) { return sheet.system.tangent(shift); }
+    void set_direction(std::span<const double> step) {
+      sheet.system.scatter(step, sheet.direction_host);
+      Kokkos::deep_copy(space, sheet.direction, sheet.direction_host);
+    }
+    Trial move(double length) {
       elastic::move_nodes(space, sheet.current, sheet.direction, length, sheet.tried);
       return trial_at(sheet.tried);
     }
@@ -122,30 +108,48 @@ struct Equilibrium<ExecutionSpace>::Impl {
     }
   };
 
+  // Where a solve starts: at the last equilibrium, else at the uniform one for the mean tension,
+  // because from the undeformed sheet the load has all of its work still to do.
+  void place_start(const ExecutionSpace& space, const Tension& Ta) {
+    if (in_equilibrium || settings.edges == Edges::fixed) {
+      Kokkos::deep_copy(space, start, nodes);
+      return;
+    }
+    const auto Ta_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, Ta);
+    double sum = 0;
+    for (int e = 0; e < grid.elements(); ++e) {
+      for (int q = 0; q < elastic::gauss_points; ++q) sum += Ta_host(e, q);
+    }
+    const double mean_Ta = sum / (elastic::gauss_points * grid.elements());
+    elastic::place_uniform(space, grid, equibiaxial_stretch(settings, mean_Ta).value_or(1), start);
+  }
+
   // Newton from `start`, ending in `current`.
-  bool converge(const ExecutionSpace& space, const Nodes<MemorySpace>& start,
-                const GaussTension<MemorySpace>& Ta, Effort& effort) {
+  bool converge(const ExecutionSpace& space, const Tension& Ta, Effort& effort) {
     Kokkos::deep_copy(space, current, start);
     Problem problem{*this, space, Ta};
-    const NewtonSettings newton{.tolerance = settings.tolerance, .residual_unit = stress_unit * grid.h};
+    const double undeformed_energy = elastic::passive_energy(membrane.passive, 2, 1).w;  // kPa
+    const NewtonSettings newton{.tolerance = settings.tolerance,
+                                .residual_unit = stress_unit * grid.h,
+                                .energy_unit = undeformed_energy * grid.elements() * grid.h * grid.h};
     effort.add(Newton(problem, solver, newton).minimise());
     return effort.last.converged;
   }
 
   // From the tension of `nodes` to Ta in parts, halved where Newton fails.
-  bool ramp(const ExecutionSpace& space, const GaussTension<MemorySpace>& Ta, Effort& effort) {
+  bool ramp(const ExecutionSpace& space, const Tension& Ta, Effort& effort) {
     effort.ramp_reached = 0;
-    Kokkos::deep_copy(space, ramped, nodes);
+    place_start(space, solved_Ta);
     double part = first_ramp_part;
     // Undeformed nodes are in no equilibrium: the ramp begins with the one without tension.
     double target = in_equilibrium ? part : 0;
     while (true) {
       elastic::mix_tension(space, solved_Ta, Ta, target, mixed_Ta);
-      if (converge(space, ramped, mixed_Ta, effort)) {
+      if (converge(space, mixed_Ta, effort)) {
         ++effort.ramp_steps;
         effort.ramp_reached = target;
         if (target == 1) return true;
-        Kokkos::deep_copy(space, ramped, current);
+        Kokkos::deep_copy(space, start, current);
       } else {
         part /= 2;
         if (target == 0 || part < least_ramp_part) return false;
@@ -154,99 +158,48 @@ struct Equilibrium<ExecutionSpace>::Impl {
     }
   }
 
-  [[noreturn]] void fail(const ExecutionSpace& space, const GaussTension<MemorySpace>& Ta, double time,
-                         const Effort& effort) const;
+  // The pins hold the right neighbour of the middle node at its height, which it also has to the
+  // left of it: after a large change of tension Newton can end in the sheet turned by 180 degrees.
+  void turn_upright(const ExecutionSpace& space) {
+    if (settings.edges == Edges::fixed) return;
+    const int middle = middle_node(grid);
+    const auto pins = Kokkos::create_mirror_view_and_copy(
+        Kokkos::HostSpace{}, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
+    if (pins(1, 0) < pins(0, 0)) elastic::turn_around(space, middle, current);
+  }
+
+  // Errors: NumericalFailure, always.
+  [[noreturn]] void fail(const Tension& Ta, double time, const Effort& effort) const;
 };
-
-namespace {
-
-// Smallest corner J, where it is, and the area over the undeformed one.
-struct Deformation {
-  double min_J = 0;
-  int row = 0, column = 0;
-  double area = 0;
-};
-
-template <class HostNodes>
-Deformation deformation_of(const elastic::ElementGrid& grid, const HostNodes& nodes) {
-  Deformation found;
-  for (int e = 0; e < grid.elements(); ++e) {
-    const auto element = elastic::element_nodes(grid, nodes, e);
-    const double J = elastic::min_corner_J(element, grid.h);
-    if (e == 0 || J < found.min_J) {
-      found.min_J = J;
-      found.row = e / grid.columns;
-      found.column = e % grid.columns;
-    }
-    found.area += determinant(elastic::deformation_gradient(element, 0.5, 0.5, grid.h)) / grid.elements();
-  }
-  return found;
-}
-
-std::string what_was_tried(const Effort& effort) {
-  std::string text = fmt::format("{} Newton iterations, {} halvings of a step, {} shifts", effort.iterations,
-                                 effort.halvings, effort.shifts);
-  if (effort.shifts > 0) text += fmt::format(" (largest {:.3g} kPa)", effort.largest_shift);
-  if (effort.ramp_reached >= 0) {
-    text += fmt::format(", and a ramp of the tension that stopped at {:.0f} % after {} parts",
-                        100 * effort.ramp_reached, effort.ramp_steps);
-  }
-  return text;
-}
-
-std::string what_to_do(const MechanicsSettings& settings, const Deformation& found, double max_Ta) {
-  constexpr double runaway_area = 50;      // the paper's load alone stretches to 1.28
-  constexpr double elliptic_tension = 60;  // kPa; an equibiaxial state stays elliptic up to it
-  if (settings.edges == Edges::load && settings.p > 0 && found.area > runaway_area) {
-    return fmt::format(
-        "The sheet grows without bound, so that p = {:g} kN/m may have no equilibrium with c1 = {:g}, c2 = "
-        "{:g} "
-        "kPa: lower mechanics.p or raise mechanics.c1 and c2",
-        settings.p, settings.c1, settings.c2);
-  }
-  if (max_Ta > elliptic_tension) {
-    return fmt::format(
-        "The tension is above {:g} kPa, where the sheet can lose ellipticity: lower tension.k_Ta, raise "
-        "mechanics.c1 and c2, or shorten mechanics.interval",
-        elliptic_tension);
-  }
-  return "Shorten mechanics.interval, so that the tension changes less between solves; if that does not "
-         "help, "
-         "bring mechanics.p, c1 and c2 nearer to the paper's 10 kN/m, 2 and 6 kPa";
-}
-
-}  // namespace
 
 template <class ExecutionSpace>
-void Equilibrium<ExecutionSpace>::Impl::fail(const ExecutionSpace& space, const GaussTension<MemorySpace>& Ta,
-                                             double time, const Effort& effort) const {
+void Equilibrium<ExecutionSpace>::Impl::fail(const Tension& Ta, double time, const Effort& effort) const {
   const auto Ta_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, Ta);
   const auto nodes_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, current);
-  space.fence("myowave::elastic::failure");
-  double min_Ta = Ta_host(0, 0), max_Ta = min_Ta;
+  FailedState state{.time = time, .min_Ta = Ta_host(0, 0), .max_Ta = Ta_host(0, 0), .area = 0};
   for (int e = 0; e < grid.elements(); ++e) {
+    const int row = e / grid.columns, column = e % grid.columns;
     for (int q = 0; q < elastic::gauss_points; ++q) {
       if (!std::isfinite(Ta_host(e, q))) {
-        throw NumericalFailure(
-            fmt::format("mechanics at t = {:g} t.u.: the active tension is not finite in element (row {}, "
-                        "column {}); the "
-                        "excitation has blown up: lower time.dt",
-                        time, e / grid.columns, e % grid.columns));
+        throw NumericalFailure(fmt::format(
+            "mechanics at t = {:g} t.u.: the active tension is not finite in element (row {}, column {}).\n"
+            "The excitation has blown up: lower time.dt.",
+            time, row, column));
       }
-      min_Ta = std::min(min_Ta, Ta_host(e, q));
-      max_Ta = std::max(max_Ta, Ta_host(e, q));
+      state.min_Ta = std::min(state.min_Ta, Ta_host(e, q));
+      state.max_Ta = std::max(state.max_Ta, Ta_host(e, q));
     }
+    const auto element = elastic::element_nodes(grid, nodes_host, e);
+    const double J = elastic::min_corner_J(element, grid.h);
+    if (e == 0 || J < state.min_J) {
+      state.min_J = J;
+      state.row = row;
+      state.column = column;
+    }
+    // J is linear in an element: its mean is the one at the centre.
+    state.area += determinant(elastic::deformation_gradient(element, 0.5, 0.5, grid.h)) / grid.elements();
   }
-  const Deformation found = deformation_of(grid, nodes_host);
-  throw NumericalFailure(
-      fmt::format("mechanics at t = {:g} t.u.: no equilibrium found for an active tension of {:.4g} to "
-                  "{:.4g} kPa, p = {:g} "
-                  "kN/m, c1 = {:g}, c2 = {:g} kPa. Tried: {}. Reached: residual {:.3g} (wanted {:.3g}), area "
-                  "{:.4g} of the "
-                  "undeformed one, smallest J {:.3g} in element (row {}, column {}). {}.",
-                  time, min_Ta, max_Ta, settings.edges == Edges::load ? settings.p : 0.0, settings.c1,
-                  settings.c2, what_was_tried(effort), effort.last.residual, settings.tolerance, found.area,
-                  found.min_J, found.row, found.column, what_to_do(settings, found, max_Ta)));
+  throw NumericalFailure(failure_message(settings, state, effort));
 }
 
 template <class ExecutionSpace>
@@ -266,9 +219,9 @@ template <class ExecutionSpace>
 SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
                                                const GaussTension<MemorySpace>& Ta, double time) {
   Effort effort;
-  if (!impl_->converge(space, impl_->nodes, Ta, effort) && !impl_->ramp(space, Ta, effort)) {
-    impl_->fail(space, Ta, time, effort);
-  }
+  impl_->place_start(space, Ta);
+  if (!impl_->converge(space, Ta, effort) && !impl_->ramp(space, Ta, effort)) impl_->fail(Ta, time, effort);
+  impl_->turn_upright(space);
   Kokkos::deep_copy(space, impl_->nodes, impl_->current);
   Kokkos::deep_copy(space, impl_->solved_Ta, Ta);
   space.fence("myowave::elastic::solve");
@@ -289,7 +242,7 @@ const Nodes<typename ExecutionSpace::memory_space>& Equilibrium<ExecutionSpace>:
 
 template <class ExecutionSpace>
 void Equilibrium<ExecutionSpace>::reset(const ExecutionSpace& space) {
-  elastic::place_undeformed(space, impl_->grid, impl_->nodes);
+  elastic::place_uniform(space, impl_->grid, 1, impl_->nodes);
   Kokkos::deep_copy(space, impl_->solved_Ta, 0.0);
   space.fence("myowave::elastic::reset");
   impl_->in_equilibrium = false;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -73,12 +73,40 @@ void build_gather(Mesh& mesh) {
   for_each_source(mesh, [&](int slot, int source) { mesh.slot_source[next[slot]++] = source; });
 }
 
+// Integral of grad u : grad v over one element, for the tangent entry of dofs (a, b).
+double element_gradient_product(int a, int b) {
+  if (a % 2 != b % 2) return 0;
+  double sum = 0;
+  for (int q = 0; q < elastic::gauss_points; ++q) {
+    const double xi_1 = elastic::gauss_coordinate(q % 2), xi_2 = elastic::gauss_coordinate(q / 2);
+    const auto g = elastic::shape_gradient(a / 2, xi_1, xi_2, 1),
+               k = elastic::shape_gradient(b / 2, xi_1, xi_2, 1);
+    sum += 0.25 * (g.d1 * k.d1 + g.d2 * k.d2);
+  }
+  return sum;
+}
+
+void build_gradient_product(Mesh& mesh) {
+  std::vector<double> element(elastic::tangent_entries);
+  for (int a = 0; a < elastic::element_dofs; ++a) {
+    for (int b = 0; b <= a; ++b) element[elastic::tangent_entry(a, b)] = element_gradient_product(a, b);
+  }
+  mesh.gradient_product.assign(mesh.column.size(), 0);
+  for (std::size_t slot = 0; slot < mesh.column.size(); ++slot) {
+    for (int k = mesh.slot_begin[slot]; k < mesh.slot_begin[slot + 1]; ++k) {
+      mesh.gradient_product[slot] += element[mesh.slot_source[k] % elastic::tangent_entries];
+    }
+  }
+}
+
 }  // namespace
+
+int middle_node(const elastic::ElementGrid& grid) { return grid.node(grid.rows / 2, grid.columns / 2); }
 
 std::vector<bool> held_components(const elastic::ElementGrid& grid, Edges edges) {
   std::vector<bool> held(2 * static_cast<std::size_t>(grid.nodes()), false);
   if (edges == Edges::load) {
-    const int middle = grid.node(grid.rows / 2, grid.columns / 2);
+    const int middle = middle_node(grid);
     held[2 * middle] = held[2 * middle + 1] = true;
     held[2 * (middle + 1) + 1] = true;
     return held;
@@ -111,6 +139,7 @@ Mesh make_mesh(const elastic::ElementGrid& grid, Edges edges) {
   }
   build_pattern(mesh);
   build_gather(mesh);
+  build_gradient_product(mesh);
   return mesh;
 }
 

@@ -1,14 +1,20 @@
 // Newton's method for a minimum of a potential Pi, globalised by Pi itself.
 //
-// A direction d solves (K + mu I) d = -R. A step length s = 1, 1/2, ... is accepted where the
-// positions are admissible (J > 0 at every corner) and
+// A direction d solves (K + mu L) d = -R, L the matrix of the integral of grad u : grad v. A step
+// length s = 1, 1/2, ... is accepted where the positions are admissible (J > 0 at every corner) and
 //
-//   Pi(x + s d) <= Pi(x) + 1e-4 s (R . d) + 1e-12 |Pi(x)|,
+//   Pi(x + s d) <= Pi(x) + 1e-4 s (R . d) + 1e-12 (|Pi(x)| + Pi_0),
 //
-// the last term being the rounding of Pi, which hides the decrease near the solution. mu is 0
-// until K is not positive definite or no length is accepted; then max(4 mu, 4) kPa. After an
-// accepted step mu/8, and 0 once mu <= 1. A line search on the residual diverges on spiral states,
-// where K is often indefinite on the way.
+// the last term being the rounding of Pi, which hides the decrease near the solution; Pi_0, the
+// energy of the undeformed sheet, keeps it where Pi passes through zero. mu is 0 until d is no descent
+// or no length is accepted; then max(4 mu, 4) kPa. After an accepted step mu/8, and 0 once mu <= 1.
+// A line search on the residual diverges on spiral states, where K is often indefinite on the way.
+// The direction of an indefinite K is a good one far from the solution (it saves a factorisation in
+// five against shifting at once); near it, it would end in a saddle, and K is shifted.
+//
+// L acts like an isotropic tension mu in the tangent: what it slows down is strain, whatever the
+// number of elements. With I in its place the motions of the sheet as a whole, whose share of K
+// falls with the number of elements, are held back: 100 x 100 elements do not converge.
 //
 // Everything here is serial and in a fixed order: the number of threads changes no decision.
 #pragma once
@@ -28,10 +34,12 @@ namespace myowave::solver {
 struct NewtonSettings {
   double tolerance = 1e-8;      // of max|R| / residual_unit
   double residual_unit = 1;     // kPa x length
-  int max_iterations = 60;      // accepted steps; as many shifts
+  int max_iterations = 60;      // accepted steps; as many rejected ones
   int max_halvings = 6;         // of one step
   double armijo = 1e-4;         // fraction of the linear decrease that a step must reach
   double energy_noise = 1e-12;  // relative rounding of Pi
+  double energy_unit = 0;       // Pi_0, kPa x area
+  double near_solution = 1e-3;  // residual from which on an indefinite K is shifted
   double first_shift = 4;       // kPa
   double shift_growth = 4;
   double shift_decay = 8;
@@ -42,7 +50,7 @@ struct NewtonReport {
   bool converged = false;
   std::int64_t iterations = 0;  // accepted steps
   std::int64_t factorizations = 0;
-  std::int64_t shifts = 0;  // factorisations of K + mu I
+  std::int64_t shifts = 0;  // factorisations of K + mu L
   std::int64_t halvings = 0;
   double largest_shift = 0;  // kPa
   double residual = std::numeric_limits<double>::infinity();
@@ -58,11 +66,13 @@ struct Trial {
 };
 
 // Problem:
-//   Trial evaluate()                              at the current positions
-//   void linearize()                              residual() and tangent() there
-//   std::span<const double> residual(), tangent() the gradient and the values for the DirectSolver
-//   Trial move(direction, length)                 tries positions
-//   void accept()                                 makes the tried positions the current ones
+//   Trial evaluate()                       at the current positions
+//   void linearize()                       at the current positions
+//   std::span<const double> residual()     there
+//   std::span<const double> tangent(mu)    there: the values of K + mu L for the DirectSolver
+//   void set_direction(d)
+//   Trial move(s)                          tries the positions x + s d
+//   void accept()                          makes the tried positions the current ones
 template <class Problem>
 class Newton {
  public:
@@ -85,7 +95,7 @@ class Newton {
       while (!step(current, shift, report)) {
         shift = std::max(settings_.shift_growth * shift, settings_.first_shift);
         report.largest_shift = std::max(report.largest_shift, shift);
-        if (report.shifts == settings_.max_iterations) return report;
+        if (report.factorizations - report.iterations >= settings_.max_iterations) return report;
       }
       ++report.iterations;
       shift /= settings_.shift_decay;
@@ -98,7 +108,9 @@ class Newton {
   bool step(Trial& current, double shift, NewtonReport& report) {
     ++report.factorizations;
     if (shift > 0) ++report.shifts;
-    if (!solver_.factorize(problem_.tangent(), shift)) return false;
+    const Factorization factorization = solver_.factorize(problem_.tangent(shift));
+    if (factorization == Factorization::failed) return false;
+    if (factorization == Factorization::indefinite && report.residual < settings_.near_solution) return false;
     const auto residual = problem_.residual();
     direction_.resize(residual.size());
     solver_.solve(residual, direction_);
@@ -108,10 +120,11 @@ class Newton {
       slope += residual[a] * direction_[a];
     }
     if (!(slope < 0)) return false;
-    const double noise = settings_.energy_noise * std::abs(current.energy);
+    problem_.set_direction(direction_);
+    const double noise = settings_.energy_noise * (std::abs(current.energy) + settings_.energy_unit);
     double length = 1;
     for (int halving = 0; halving <= settings_.max_halvings; ++halving, length /= 2) {
-      const Trial trial = problem_.move(direction_, length);
+      const Trial trial = problem_.move(length);
       if (trial.admissible() && trial.energy <= current.energy + settings_.armijo * length * slope + noise) {
         problem_.accept();
         current = trial;

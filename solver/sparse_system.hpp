@@ -20,6 +20,7 @@ class SparseSystem {
 
   SparseSystem(const ExecutionSpace& space, const Mesh& mesh)
       : unknown_(mesh.unknown),
+        gradient_product_(mesh.gradient_product),
         slot_begin_(to_device(space, "myowave::elastic::slot_begin", mesh.slot_begin)),
         slot_source_(to_device(space, "myowave::elastic::slot_source", mesh.slot_source)),
         element_residual_("myowave::elastic::element_residual", mesh.grid.elements()),
@@ -28,7 +29,8 @@ class SparseSystem {
         values_("myowave::elastic::tangent", mesh.column.size()),
         nodal_residual_host_(Kokkos::create_mirror_view(nodal_residual_)),
         values_host_(Kokkos::create_mirror_view(values_)),
-        residual_(mesh.unknowns) {}
+        residual_(mesh.unknowns),
+        shifted_(mesh.column.size()) {}
 
   void assemble(const ExecutionSpace& space, const elastic::Membrane& membrane,
                 const elastic::ElementGrid& grid, const Nodes<MemorySpace>& nodes,
@@ -46,8 +48,14 @@ class SparseSystem {
 
   // kPa x length, an entry an unknown.
   std::span<const double> residual() const { return residual_; }
-  // kPa, lower triangle in the order of Mesh::column.
-  std::span<const double> tangent() const { return {values_host_.data(), values_host_.extent(0)}; }
+  // K + shift L in kPa, lower triangle in the order of Mesh::column; L as in Mesh::gradient_product.
+  std::span<const double> tangent(double shift) {
+    const std::span<const double> K{values_host_.data(), values_host_.extent(0)};
+    if (shift == 0) return K;
+    for (std::size_t slot = 0; slot < K.size(); ++slot)
+      shifted_[slot] = K[slot] + shift * gradient_product_[slot];
+    return shifted_;
+  }
   // At all nodes (nodes, 2): what is left at held components is the force that holds them.
   const auto& nodal_residual() const { return nodal_residual_host_; }
 
@@ -72,6 +80,7 @@ class SparseSystem {
   }
 
   std::vector<int> unknown_;
+  std::vector<double> gradient_product_;
   elastic::Indices<MemorySpace> slot_begin_, slot_source_;
   elastic::ElementResidual<MemorySpace> element_residual_;
   elastic::ElementTangent<MemorySpace> element_tangent_;
@@ -80,6 +89,7 @@ class SparseSystem {
   typename Nodes<MemorySpace>::host_mirror_type nodal_residual_host_;
   typename elastic::Numbers<MemorySpace>::host_mirror_type values_host_;
   std::vector<double> residual_;
+  std::vector<double> shifted_;
 };
 
 }  // namespace myowave::solver

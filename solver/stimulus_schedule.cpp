@@ -12,12 +12,17 @@ tissue::StimulusRegion make_region(const Stimulus& s, const GridSettings& grid) 
     case Stimulus::Shape::block:
       return {s.rows[0], s.rows[1] + 1, s.columns[0], s.columns[1] + 1};
     case Stimulus::Shape::disc: {
-      const auto first = [&](double center) { return static_cast<int>(std::ceil(center - s.radius)); };
-      const auto end = [&](double center) { return static_cast<int>(std::floor(center + s.radius)) + 1; };
-      return {std::max(0, first(s.center[1])),
-              std::min(grid.rows, end(s.center[1])),
-              std::max(0, first(s.center[0])),
-              std::min(grid.columns, end(s.center[0])),
+      // Both inside 0 ... n also where the disc is off the sheet: an empty box.
+      const auto first = [&](double center, double n) {
+        return static_cast<int>(std::clamp(std::ceil(center - s.radius), 0.0, n));
+      };
+      const auto end = [&](double center, double n) {
+        return static_cast<int>(std::clamp(std::floor(center + s.radius) + 1, 0.0, n));
+      };
+      return {first(s.center[1], grid.rows),
+              end(s.center[1], grid.rows),
+              first(s.center[0], grid.columns),
+              end(s.center[0], grid.columns),
               s.center[1],
               s.center[0],
               s.radius * s.radius};

@@ -48,14 +48,27 @@ KOKKOS_INLINE_FUNCTION void load_tension(const TensionView& Ta, int e, double (&
 
 }  // namespace detail
 
-// The undeformed sheet: node (I, J) at (J h, I h).
+// The sheet stretched uniformly about its middle node, which stays: undeformed at stretch = 1.
 template <class Space>
-void place_undeformed(const Space& space, const ElementGrid& grid,
-                      const Nodes<typename Space::memory_space>& nodes) {
+void place_uniform(const Space& space, const ElementGrid& grid, double stretch,
+                   const Nodes<typename Space::memory_space>& nodes) {
   Kokkos::parallel_for(
-      "myowave::elastic::place_undeformed", detail::range(space, grid.nodes()), KOKKOS_LAMBDA(int n) {
-        nodes(n, 0) = (n % (grid.columns + 1)) * grid.h;
-        nodes(n, 1) = (n / (grid.columns + 1)) * grid.h;
+      "myowave::elastic::place_uniform", detail::range(space, grid.nodes()), KOKKOS_LAMBDA(int n) {
+        const int I = n / (grid.columns + 1), J = n % (grid.columns + 1);
+        nodes(n, 0) = J * grid.h + (stretch - 1) * ((J - grid.columns / 2) * grid.h);
+        nodes(n, 1) = I * grid.h + (stretch - 1) * ((I - grid.rows / 2) * grid.h);
+      });
+}
+
+// Turns the sheet by 180 degrees about node `center`.
+template <class Space>
+void turn_around(const Space& space, int center, const Nodes<typename Space::memory_space>& nodes) {
+  Kokkos::parallel_for(
+      "myowave::elastic::turn_around", detail::range(space, static_cast<int>(nodes.extent(0))),
+      KOKKOS_LAMBDA(int n) {
+        if (n == center) return;
+        nodes(n, 0) = 2 * nodes(center, 0) - nodes(n, 0);
+        nodes(n, 1) = 2 * nodes(center, 1) - nodes(n, 1);
       });
 }
 
