@@ -20,8 +20,8 @@ constexpr int colour_bar_width = 18;
 constexpr double text_height = 17;
 constexpr double label_height = 12;
 
-// How far the sheet moves out of its place at rest while parts of it contract, of its size.
-constexpr double slack = 1.04;
+// How far the sheet leaves its place at rest, of its size: parts that contract turn it about its pin.
+constexpr double slack = 1.12;
 
 constexpr Colour white{255, 255, 255};
 constexpr Colour ink{30, 30, 30};
@@ -98,6 +98,8 @@ double rest_stretch(const solver::MechanicsSettings& m) {
 FramePicture::FramePicture(const solver::Scene& scene)
     : shape_(frame_shape(scene)), ms_per_tu_(scene.time.ms_per_tu) {
   const double length_1 = (shape_.columns - 1) * shape_.dx, length_2 = (shape_.rows - 1) * shape_.dx;
+  const double ms_per_frame = scene.output.every * ms_per_tu_;
+  decimals_ = std::abs(ms_per_frame - std::round(ms_per_frame)) < 1e-9 ? 0 : 1;
   view_x_ = view_y_ = 0;
   double width = length_1, height = length_2;
   if (scene.mechanics && scene.mechanics->edges == solver::Edges::load) {
@@ -166,7 +168,7 @@ void FramePicture::draw_lines(Picture& picture, Strokes& border, std::span<const
 }
 
 void FramePicture::draw_labels(Picture& picture, Strokes& text, double t) const {
-  text.text({margin, header - 17.0}, text_height, fmt::format("t = {:.1f} ms", t * ms_per_tu_));
+  text.text({margin, header - 17.0}, text_height, fmt::format("t = {:.{}f} ms", t * ms_per_tu_, decimals_));
 
   const int left = margin + view_width_ + margin;
   const int height = std::min(view_height_ - 40, 320);

@@ -24,6 +24,7 @@ class FramePicture {
 
   FrameShape shape_;  // a rigid sheet is drawn as one element
   double ms_per_tu_;
+  int decimals_;            // of the time, ms
   double view_x_, view_y_;  // lower left corner of the view, length units
   double scale_;            // pixels a length unit
   int view_width_, view_height_;

@@ -26,18 +26,18 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-std::string progress_text(const solver::Progress& p, double seconds, double ms_per_tu, bool deforms) {
+std::string progress_text(const solver::Progress& p, double seconds, double ms_per_tu) {
   const double done = fraction(p);
   std::string text = fmt::format("{:3.0f} %  t {:.6g}/{:.6g} t.u. ({:.0f} ms)", std::floor(100 * done), p.t,
                                  p.t_end, p.t * ms_per_tu);
   if (done > 0 && done < 1) text += fmt::format("  ETA {}", clock_text(seconds * (1 - done) / done));
   text += fmt::format("  {:.0f} Mcell-steps/s", p.cell_steps_per_s / 1e6);
-  if (deforms) text += fmt::format("  Newton {}", p.newton_iterations);
+  if (p.newton_iterations > 0) text += fmt::format("  Newton {}", p.newton_iterations);
   return text + fmt::format("  tips {}", p.tips);
 }
 
-ProgressLine::ProgressLine(double ms_per_tu, bool deforms, bool quiet)
-    : ms_per_tu_(ms_per_tu), deforms_(deforms), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(double ms_per_tu, bool quiet)
+    : ms_per_tu_(ms_per_tu), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressLine::show(const solver::Progress& p) {
   using namespace std::chrono_literals;
@@ -59,7 +59,7 @@ void ProgressLine::show(const solver::Progress& p) {
     show_on_terminal(p, seconds);
   } else {
     if (!complete && waited < 10s && (waited < 1s || done < last_fraction_ + 0.1)) return;
-    fmt::print(stderr, "{}: {}\n", stage_, progress_text(p, seconds, ms_per_tu_, deforms_));
+    fmt::print(stderr, "{}: {}\n", stage_, progress_text(p, seconds, ms_per_tu_));
   }
   last_shown_ = now;
   last_fraction_ = done;
@@ -71,11 +71,10 @@ void ProgressLine::show_on_terminal(const solver::Progress& p, double seconds) {
   std::string bar;
   const auto filled = static_cast<std::size_t>(fraction(p) * cells);
   bar.append(filled, '#').append(cells - filled, '.');
-  auto line = fmt::format("{} [{}] {}", stage_, bar, progress_text(p, seconds, ms_per_tu_, deforms_));
+  auto line = fmt::format("{} [{}] {}", stage_, bar, progress_text(p, seconds, ms_per_tu_));
   const std::size_t width = terminal_width();
   // Without its bar where that makes it fit: a wrapped line cannot be rewritten.
-  if (line.size() >= width)
-    line = fmt::format("{} {}", stage_, progress_text(p, seconds, ms_per_tu_, deforms_));
+  if (line.size() >= width) line = fmt::format("{} {}", stage_, progress_text(p, seconds, ms_per_tu_));
   if (line.size() >= width) line.resize(width - 1);
   fmt::print(stderr, "\r\x1b[K{}", line);
   std::fflush(stderr);

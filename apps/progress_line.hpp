@@ -9,12 +9,12 @@
 namespace myowave::apps {
 
 // " 42 %  t 168/400 t.u. (1680 ms)  ETA 0:12  312 Mcell-steps/s  Newton 1234  tips 1"
-// `seconds`: spent in this stage. Newton iterations are left out for a rigid sheet.
-std::string progress_text(const solver::Progress&, double seconds, double ms_per_tu, bool deforms);
+// `seconds`: spent in this stage. Newton iterations are left out where there are none.
+std::string progress_text(const solver::Progress&, double seconds, double ms_per_tu);
 
 class ProgressLine {
  public:
-  ProgressLine(double ms_per_tu, bool deforms, bool quiet);
+  ProgressLine(double ms_per_tu, bool quiet);
   ~ProgressLine() { end(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -28,7 +28,7 @@ class ProgressLine {
   void show_on_terminal(const solver::Progress&, double seconds);
 
   double ms_per_tu_;
-  bool deforms_, quiet_, terminal_;
+  bool quiet_, terminal_;
   bool open_ = false;  // the terminal's line is not ended
   std::string stage_;
   Clock::time_point stage_start_, last_shown_;

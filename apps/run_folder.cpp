@@ -81,7 +81,7 @@ struct RunFolder::Impl {
         probes(folder / "probes.csv", probes_header(scene.output)),
         tips(folder / "tips.csv", "t,x,y,charge\n"),
         area(folder / "area.csv", "t,area,area_min,area_max\n"),
-        progress(scene.time.ms_per_tu, shape.deforms(), quiet) {
+        progress(scene.time.ms_per_tu, quiet) {
     if (scene.output.fields) {
       fields.emplace(folder / "fields.h5", shape, scene.time.ms_per_tu);
       xdmf.emplace(folder / "fields.xdmf", shape, "fields.h5");

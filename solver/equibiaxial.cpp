@@ -16,7 +16,7 @@ std::optional<double> equibiaxial_stretch(const MechanicsSettings& settings, dou
     low /= 2;
     if (low < 1 / largest) return std::nullopt;
   }
-  while (!(tension(high) >= 0)) {
+  while (!(tension(high) > 0)) {
     high *= 2;
     if (high > largest) return std::nullopt;
   }

@@ -1,7 +1,5 @@
 #include "solver/equilibrium.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -158,6 +156,16 @@ struct Equilibrium<ExecutionSpace>::Impl {
     }
   }
 
+  // The pins hold the right neighbour of the middle node at its height, which it also has to the
+  // left of it: after a large change of tension Newton can end in the sheet turned by 180 degrees.
+  void turn_upright(const ExecutionSpace& space) {
+    if (settings.edges == Edges::fixed) return;
+    const int middle = middle_node(grid);
+    const auto pins = Kokkos::create_mirror_view_and_copy(
+        Kokkos::HostSpace{}, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
+    if (pins(1, 0) < pins(0, 0)) elastic::turn_around(space, middle, current);
+  }
+
   // Errors: NumericalFailure, always.
   [[noreturn]] void fail(const Tension& Ta, double time, const Effort& effort) const;
 };
@@ -171,10 +179,7 @@ void Equilibrium<ExecutionSpace>::Impl::fail(const Tension& Ta, double time, con
     const int row = e / grid.columns, column = e % grid.columns;
     for (int q = 0; q < elastic::gauss_points; ++q) {
       if (!std::isfinite(Ta_host(e, q))) {
-        throw NumericalFailure(fmt::format(
-            "mechanics at t = {:g} t.u.: the active tension is not finite in element (row {}, column {}).\n"
-            "The excitation has blown up: lower time.dt.",
-            time, row, column));
+        throw NumericalFailure(broken_tension_message(time, row, column));
       }
       state.min_Ta = std::min(state.min_Ta, Ta_host(e, q));
       state.max_Ta = std::max(state.max_Ta, Ta_host(e, q));
@@ -211,6 +216,7 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
   Effort effort;
   impl_->place_start(space, Ta);
   if (!impl_->converge(space, Ta, effort) && !impl_->ramp(space, Ta, effort)) impl_->fail(Ta, time, effort);
+  impl_->turn_upright(space);
   Kokkos::deep_copy(space, impl_->nodes, impl_->current);
   Kokkos::deep_copy(space, impl_->solved_Ta, Ta);
   space.fence("myowave::elastic::solve");

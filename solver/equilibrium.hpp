@@ -15,7 +15,7 @@ namespace myowave::solver {
 struct SolveReport {
   std::int64_t iterations = 0;
   std::int64_t factorizations = 0;
-  std::int64_t shifts = 0;      // factorisations of K + mu I
+  std::int64_t shifts = 0;      // factorisations of K + mu L, see solver/newton.hpp
   std::int64_t ramp_steps = 0;  // 0: Ta was applied at once
   double residual = 0;          // max|R_free| / (10 kPa h) at the end
   double energy = 0;            // Pi at the end, kPa x area
@@ -33,8 +33,9 @@ class Equilibrium {
   Equilibrium(Equilibrium&&) noexcept;
   Equilibrium& operator=(Equilibrium&&) noexcept;
 
-  // Brings the nodes to equilibrium with the tension (kPa, at the Gauss points), starting from
-  // where they are. On failure the nodes keep their last accepted positions.
+  // Brings the nodes to equilibrium with the tension (kPa, at the Gauss points), starting from the
+  // last solution, or, where there is none, from the uniform one for the mean tension. On failure
+  // the nodes keep the last solution.
   // Errors: NumericalFailure with time, Ta range, min J and what was tried.
   SolveReport solve(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double time);
 

@@ -66,4 +66,11 @@ std::string failure_message(const MechanicsSettings& settings, const FailedState
       what_to_do(settings, state));
 }
 
+std::string broken_tension_message(double time, int row, int column) {
+  return fmt::format(
+      "mechanics at t = {:g} t.u.: the active tension is not finite in element (row {}, column {}).\n"
+      "The excitation has blown up: lower time.dt.",
+      time, row, column);
+}
+
 }  // namespace myowave::solver

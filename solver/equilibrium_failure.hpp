@@ -39,4 +39,7 @@ struct FailedState {
 // Time, tension, load, what was tried, what was reached, and what to do.
 std::string failure_message(const MechanicsSettings&, const FailedState&, const Effort&);
 
+// The tension of an element is not a number: no solve was tried.
+std::string broken_tension_message(double time, int row, int column);
+
 }  // namespace myowave::solver

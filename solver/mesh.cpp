@@ -101,10 +101,12 @@ void build_gradient_product(Mesh& mesh) {
 
 }  // namespace
 
+int middle_node(const elastic::ElementGrid& grid) { return grid.node(grid.rows / 2, grid.columns / 2); }
+
 std::vector<bool> held_components(const elastic::ElementGrid& grid, Edges edges) {
   std::vector<bool> held(2 * static_cast<std::size_t>(grid.nodes()), false);
   if (edges == Edges::load) {
-    const int middle = grid.node(grid.rows / 2, grid.columns / 2);
+    const int middle = middle_node(grid);
     held[2 * middle] = held[2 * middle + 1] = true;
     held[2 * (middle + 1) + 1] = true;
     return held;

@@ -29,8 +29,11 @@ struct Mesh {
   std::vector<double> gradient_product;
 };
 
-// Components [2 n + i] that are held at their undeformed positions. Edges::load: the node in the
-// middle of the sheet, and the X2 component of its right neighbour, which leaves no rigid motion;
+// The node in the middle of the sheet, at which a loaded sheet is held.
+int middle_node(const elastic::ElementGrid&);
+
+// Components [2 n + i] that are held at their undeformed positions. Edges::load: the middle
+// node, and the X2 component of its right neighbour, which leaves no rigid motion;
 // Edges::fixed: every boundary node.
 std::vector<bool> held_components(const elastic::ElementGrid&, Edges);
 

@@ -34,7 +34,7 @@ namespace myowave::solver {
 struct NewtonSettings {
   double tolerance = 1e-8;      // of max|R| / residual_unit
   double residual_unit = 1;     // kPa x length
-  int max_iterations = 60;      // accepted steps; as many shifts
+  int max_iterations = 60;      // accepted steps; as many rejected ones
   int max_halvings = 6;         // of one step
   double armijo = 1e-4;         // fraction of the linear decrease that a step must reach
   double energy_noise = 1e-12;  // relative rounding of Pi
@@ -95,7 +95,7 @@ class Newton {
       while (!step(current, shift, report)) {
         shift = std::max(settings_.shift_growth * shift, settings_.first_shift);
         report.largest_shift = std::max(report.largest_shift, shift);
-        if (report.shifts == settings_.max_iterations) return report;
+        if (report.factorizations - report.iterations >= settings_.max_iterations) return report;
       }
       ++report.iterations;
       shift /= settings_.shift_decay;

@@ -47,14 +47,14 @@ class SparseSystem {
   }
 
   // kPa x length, an entry an unknown.
-  std::span<const double> residual() const { return residual_; }
+  std::span<const double> residual() const { return {residual_.data(), residual_.size()}; }
   // K + shift L in kPa, lower triangle in the order of Mesh::column; L as in Mesh::gradient_product.
   std::span<const double> tangent(double shift) {
     const std::span<const double> K{values_host_.data(), values_host_.extent(0)};
     if (shift == 0) return K;
     for (std::size_t slot = 0; slot < K.size(); ++slot)
       shifted_[slot] = K[slot] + shift * gradient_product_[slot];
-    return shifted_;
+    return {shifted_.data(), shifted_.size()};
   }
   // At all nodes (nodes, 2): what is left at held components is the force that holds them.
   const auto& nodal_residual() const { return nodal_residual_host_; }

@@ -60,6 +60,18 @@ void place_uniform(const Space& space, const ElementGrid& grid, double stretch,
       });
 }
 
+// Turns the sheet by 180 degrees about node `center`.
+template <class Space>
+void turn_around(const Space& space, int center, const Nodes<typename Space::memory_space>& nodes) {
+  Kokkos::parallel_for(
+      "myowave::elastic::turn_around", detail::range(space, static_cast<int>(nodes.extent(0))),
+      KOKKOS_LAMBDA(int n) {
+        if (n == center) return;
+        nodes(n, 0) = 2 * nodes(center, 0) - nodes(n, 0);
+        nodes(n, 1) = 2 * nodes(center, 1) - nodes(n, 1);
+      });
+}
+
 // moved = nodes + length * direction.
 template <class Space>
 void move_nodes(const Space& space, const Nodes<typename Space::memory_space>& nodes,

@@ -1,0 +1,62 @@
+#include "solver/direct_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "solver/mesh.hpp"
+#include "tests/support/sheets.hpp"
+
+namespace myowave::solver {
+namespace {
+
+// [4 1 0; 1 3 -1; 0 -1 2], lower triangle by rows.
+const std::vector<int> row_begin{0, 1, 3, 5}, column{0, 0, 1, 1, 2};
+
+TEST(DirectSolver, SolvesAHandCase) {
+  DirectSolver solver(row_begin, column);
+  ASSERT_EQ(solver.factorize(std::vector<double>{4, 1, 3, -1, 2}), Factorization::positive_definite);
+  std::vector<double> x(3);
+  solver.solve(std::vector<double>{6, 4, 4}, x);  // of x = (1, 2, 3)
+  EXPECT_NEAR(x[0], 1, 1e-15);
+  EXPECT_NEAR(x[1], 2, 1e-15);
+  EXPECT_NEAR(x[2], 3, 1e-15);
+}
+
+TEST(DirectSolver, TellsAnIndefiniteMatrixAndRecovers) {
+  DirectSolver solver(row_begin, column);
+  EXPECT_EQ(solver.factorize(std::vector<double>{4, 1, -3, -1, 2}), Factorization::indefinite);
+  std::vector<double> y(3);
+  solver.solve(std::vector<double>{6, -8, 4}, y);  // of (1, 2, 3) all the same
+  EXPECT_NEAR(y[1], 2, 1e-15);
+  EXPECT_EQ(solver.factorize(std::vector<double>{4, 4, 3, -1, 2}),
+            Factorization::indefinite);  // indefinite, positive diagonal
+  EXPECT_EQ(solver.factorize(std::vector<double>{0, 0, 0, 0, 0}), Factorization::failed);
+  EXPECT_EQ(solver.factorize(std::vector<double>{4, 1, 3, -1, 2}), Factorization::positive_definite);
+  std::vector<double> x(3);
+  solver.solve(std::vector<double>{6, 4, 4}, x);
+  EXPECT_NEAR(x[2], 3, 1e-15);
+}
+
+TEST(DirectSolver, SolvesTheMeshOfThePaper) {
+  const Mesh mesh = make_mesh({.rows = 25, .columns = 25, .h = 6}, Edges::load);
+  DirectSolver solver(mesh.row_begin, mesh.column);
+  std::vector<double> A = mesh.gradient_product;
+  for (int row = 0; row < mesh.unknowns; ++row) A[mesh.row_begin[row + 1] - 1] += 0.1;
+  ASSERT_EQ(solver.factorize(A), Factorization::positive_definite);
+  test::Uniform uniform(1);
+  std::vector<double> x(mesh.unknowns), b(mesh.unknowns), found(mesh.unknowns);
+  for (double& v : x) v = uniform(-1, 1);
+  for (int row = 0; row < mesh.unknowns; ++row) {
+    for (int slot = mesh.row_begin[row]; slot < mesh.row_begin[row + 1]; ++slot) {
+      b[row] += A[slot] * x[mesh.column[slot]];
+      if (mesh.column[slot] != row) b[mesh.column[slot]] += A[slot] * x[row];
+    }
+  }
+  solver.solve(b, found);
+  for (int a = 0; a < mesh.unknowns; ++a) EXPECT_NEAR(found[a], x[a], 1e-12);
+  EXPECT_LT(solver.factor_entries(), 50000);  // a natural ordering needs 71901
+}
+
+}  // namespace
+}  // namespace myowave::solver
