@@ -14,6 +14,7 @@
 
 #include "apps/initial_state.hpp"
 #include "apps/memory.hpp"
+#include "apps/progress_line.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/schema.hpp"
@@ -50,25 +51,19 @@ solver::Scene load(const std::string& file, std::vector<std::string> overrides,
   }
   if (until) overrides.push_back(fmt::format("time.t_end={}", *until));
   solver::Scene scene = read_scene(file, overrides);
+  solver::require_stable_step(scene);
   require_memory(scene);
   return scene;
 }
 
-// The result folder of a run that is refused before it starts is not left behind, so that the next
-// try needs no --force. One that was there before stays.
-class NewFolder {
+// Tells how far a state has come that is computed before there is a result folder.
+class SettlingProgress final : public solver::OutputSink {
  public:
-  explicit NewFolder(std::filesystem::path folder)
-      : folder_(std::move(folder)), was_there_(std::filesystem::exists(folder_)) {}
-
-  void remove() const {
-    std::error_code ignored;
-    if (!was_there_) std::filesystem::remove_all(folder_, ignored);
-  }
+  SettlingProgress(const solver::Scene& scene, bool quiet) : line_(scene.time.ms_per_tu, quiet) {}
+  void progress(const solver::Progress& progress) override { line_.show(progress); }
 
  private:
-  std::filesystem::path folder_;
-  bool was_there_;
+  ProgressLine line_;
 };
 
 std::string time_text(double t, const solver::Scene& scene) {
@@ -96,21 +91,6 @@ void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
                time_text(seen.shortening->second, scene));
   }
   fmt::print("  results     {}\n", folder.string());
-}
-
-void compute(const solver::Scene& scene, const RunRequest& request, const std::filesystem::path& out) {
-  RunFolder folder(out, scene, request.force, request.quiet);
-  folder.write_manifest(effective_configuration(scene));
-  solver::InitialState initial = resolve_initial_state(scene, folder);
-  solver::RunSummary summary;
-  try {
-    solver::run(scene, std::move(initial), folder, summary);
-  } catch (const solver::NumericalFailure& failure) {
-    folder.write_summary(summary, failure.what());
-    throw;
-  }
-  folder.write_summary(summary, std::nullopt);
-  if (!request.quiet) print_result(scene, summary, out);
 }
 
 std::int64_t step_count(double duration, const solver::Scene& scene) {
@@ -180,14 +160,29 @@ void run(const RunRequest& request) {
   const solver::Scene scene = load(request.scene, request.overrides, request.until);
   const std::filesystem::path out =
       request.out ? std::filesystem::path(*request.out) : std::filesystem::path("out") / scene.name;
-  const NewFolder folder(out);
+  // Everything that can refuse the run comes before its folder, where --force replaces old results.
+  RunFolder::require_free(out, request.force);
   const Device device;
+  solver::InitialState initial = [&] {
+    SettlingProgress progress(scene, request.quiet);
+    return resolve_initial_state(scene, progress);
+  }();
+
+  RunFolder folder(out, scene, request.force, request.quiet);
+  folder.write_manifest(effective_configuration(scene));
+  solver::RunSummary summary;
   try {
-    compute(scene, request, out);
-  } catch (const solver::InputError&) {
-    folder.remove();
+    solver::run(scene, std::move(initial), folder, summary);
+  } catch (const std::exception& failure) {
+    try {
+      folder.write_summary(summary, failure.what());
+    } catch (const std::exception&) {
+      // A full disk may refuse the summary too; what ended the run is what the user needs to know.
+    }
     throw;
   }
+  folder.write_summary(summary, std::nullopt);
+  if (!request.quiet) print_result(scene, summary, out);
 }
 
 void check(const std::string& file, const std::vector<std::string>& overrides) {

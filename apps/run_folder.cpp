@@ -39,25 +39,11 @@ void remove_results(const fs::path& folder) {
   }
 }
 
-// Errors: InputError.
-void prepare_folder(const fs::path& folder, bool force) {
+// What the file system has against the folder is the user's to mend.
+template <class Action>
+void with_folder(const fs::path& folder, const Action& action) {
   try {
-    if (!fs::exists(folder)) {
-      fs::create_directories(folder);
-      return;
-    }
-    if (!fs::is_directory(folder)) {
-      throw solver::InputError(
-          fmt::format("{} is a file; the results need a folder: choose another with --out", folder.string()));
-    }
-    if (fs::is_empty(folder)) return;
-    if (!force) {
-      throw solver::InputError(
-          fmt::format("the result folder {} is there already: choose another with --out, or replace its "
-                      "results with --force",
-                      folder.string()));
-    }
-    remove_results(folder);
+    action();
   } catch (const fs::filesystem_error& error) {
     throw solver::InputError(
         fmt::format("cannot make the result folder {}: {}", folder.string(), error.code().message()));
@@ -65,10 +51,8 @@ void prepare_folder(const fs::path& folder, bool force) {
 }
 
 std::string probes_header(const solver::OutputSettings& output) {
-  // Without a list the solver looks at its four default probes.
-  const std::size_t count = output.probes.empty() ? 4 : output.probes.size();
   std::string header = "t";
-  for (std::size_t n = 0; n < count; ++n) header += fmt::format(",V{0},r{0},Ta{0}", n);
+  for (std::size_t n = 0; n < output.probes.size(); ++n) header += fmt::format(",V{0},r{0},Ta{0}", n);
   return header + '\n';
 }
 
@@ -102,8 +86,28 @@ struct RunFolder::Impl {
   ProgressLine progress;
 };
 
+void RunFolder::require_free(const fs::path& folder, bool force) {
+  with_folder(folder, [&] {
+    if (!fs::exists(folder)) return;
+    if (!fs::is_directory(folder)) {
+      throw solver::InputError(
+          fmt::format("{} is a file; the results need a folder: choose another with --out", folder.string()));
+    }
+    if (!force && !fs::is_empty(folder)) {
+      throw solver::InputError(
+          fmt::format("the result folder {} is there already: choose another with --out, or replace its "
+                      "results with --force",
+                      folder.string()));
+    }
+  });
+}
+
 RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, bool force, bool quiet) {
-  prepare_folder(folder, force);
+  require_free(folder, force);
+  with_folder(folder, [&] {
+    fs::create_directories(folder);
+    remove_results(folder);
+  });
   try {
     impl_ = std::make_unique<Impl>(std::move(folder), scene, quiet);
   } catch (const std::runtime_error& error) {

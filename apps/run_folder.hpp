@@ -14,6 +14,9 @@ namespace myowave::apps {
 // Errors of all writes: std::runtime_error that names the file and the reason.
 class RunFolder final : public solver::OutputSink {
  public:
+  // Errors: InputError where the folder holds something and `force` is false.
+  static void require_free(const std::filesystem::path& folder, bool force);
+
   // Creates the folder; `force` replaces the results in one that is there and leaves all else in it.
   // Errors: InputError where it holds something and `force` is false, or cannot be written.
   RunFolder(std::filesystem::path folder, const solver::Scene&, bool force, bool quiet);

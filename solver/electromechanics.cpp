@@ -86,13 +86,6 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       Ta_("myowave::solver::Ta", 1, grid_.rows, grid_.columns),
       tip_count_("myowave::solver::tip_count"),
       tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)) {
-  constexpr double undeformed_trace = 2;
-  const double bound = largest_stable_dt(scene, undeformed_trace);
-  if (scene.time.dt > bound)
-    throw InputError(fmt::format(
-        "time.dt = {} is past the stability bound {:.6g} of the undeformed sheet, "
-        "2 C_m / (8 D / dx^2 + k |1 - a|). Set time.dt to {:.3g} or less, or use a larger grid.dx",
-        scene.time.dt, bound, 0.99 * bound));
   upload(V_, state.V);
   upload(r_, state.r);
   upload(Ta_, state.Ta);

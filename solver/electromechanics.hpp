@@ -33,7 +33,7 @@ class Electromechanics {
   using View = EnsembleField<Real, Space>;
 
   // Solves the loaded rest state (Ta = 0), the reference of all areas, where there is mechanics.
-  // Errors: InputError (dt past the bound of the undeformed sheet), NumericalFailure.
+  // Errors: NumericalFailure.
   Electromechanics(const ExecutionSpace&, const Scene&, const InitialState&, PhaseSeconds&,
                    MechanicsStatistics&);
 

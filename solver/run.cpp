@@ -233,6 +233,17 @@ InitialState run_stage(const Scene& scene, const InitialState& state, OutputSink
              : Stage<double>(scene, sink, summary, name, observed).run(state);
 }
 
+void require_stable_dt(const Scene& scene, const char* where) {
+  constexpr double undeformed_trace = 2;
+  const double bound = largest_stable_dt(scene, undeformed_trace);
+  if (scene.time.dt > bound) {
+    throw InputError(fmt::format(
+        "time.dt = {} is past the stability bound {:.6g} of the undeformed sheet{}, "
+        "2 C_m / (8 D / dx^2 + k |1 - a|). Set time.dt to {:.3g} or less, or use a larger grid.dx",
+        scene.time.dt, bound, where, 0.99 * bound));
+  }
+}
+
 Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
   Scene stage = scene;
   stage.excitation = precondition.excitation;
@@ -250,6 +261,12 @@ Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
 }
 
 }  // namespace
+
+void require_stable_step(const Scene& scene) {
+  require_stable_dt(scene, "");
+  for (const auto& precondition : scene.initial.preconditions)
+    require_stable_dt(precondition_scene(scene, precondition), " during a precondition");
+}
 
 InitialState make_initial_state(const Scene& scene) {
   const int rows = scene.grid.rows, columns = scene.grid.columns;
@@ -345,6 +362,7 @@ InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSu
   if (state.rows != scene.grid.rows || state.columns != scene.grid.columns)
     throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
                                  scene.grid.rows, scene.grid.columns));
+  require_stable_step(scene);
   flush_denormals();
   summary.model = model_in_words(scene);
   std::size_t number = 0;

@@ -100,6 +100,10 @@ struct RunSummary {
 std::vector<std::string> model_in_words(const Scene&);
 std::uint64_t memory_bytes(const Scene&);
 
+// Refuses a dt past the stability bound of the undeformed sheet, in the scene or a precondition.
+// Errors: InputError with the bound.
+void require_stable_step(const Scene&);
+
 // Initial state of `rest` and `broken_front`; the other types come from apps (files, cache).
 // Errors: InputError for the other types.
 InitialState make_initial_state(const Scene&);
@@ -107,8 +111,7 @@ InitialState make_initial_state(const Scene&);
 // Runs the preconditions and then the scene. `summary` is kept current, so that it tells how far
 // the run came when NumericalFailure leaves this function.
 // Returns the final state.
-// Errors: InputError (dt past the stability bound at the start, sizes that do not fit),
-// NumericalFailure.
+// Errors: InputError (require_stable_step, sizes that do not fit), NumericalFailure.
 InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary);
 
 }  // namespace myowave::solver

@@ -371,6 +371,8 @@ TEST_F(Executable, results_are_replaced_only_by_force) {
   EXPECT_EQ(test::run_myowave({"run", scene, "--out", out, "--force", "--until", "2"}).status, 0);
   const auto summary = nlohmann::json::parse(std::ifstream(out + "/summary.json"));
   EXPECT_EQ(summary["t"], 2.0);
+  EXPECT_EQ(test::run_myowave({"run", scene, "--out", out, "--force", "--set", "time.dt=0.1"}).status, 2);
+  EXPECT_TRUE(std::filesystem::exists(out + "/summary.json")) << "--force does not help a refused run";
 }
 
 TEST_F(Executable, a_sheet_without_equilibrium_is_status_3_and_leaves_a_summary_that_says_so) {

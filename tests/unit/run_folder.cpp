@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 
 solver::Scene scene_of(int n, bool deforms, bool fields, bool frames) {
   solver::Scene scene;
+  scene.output.probes = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};
   scene.grid.rows = scene.grid.columns = n;
   if (deforms) scene.mechanics.emplace();
   scene.output.fields = fields;
