@@ -14,6 +14,7 @@ struct ElementGrid {
 
   KOKKOS_FUNCTION constexpr int elements() const { return rows * columns; }
   KOKKOS_FUNCTION constexpr int nodes() const { return (rows + 1) * (columns + 1); }
+  KOKKOS_FUNCTION constexpr int element(int I, int J) const { return I * columns + J; }
   KOKKOS_FUNCTION constexpr int node(int I, int J) const { return I * (columns + 1) + J; }
   // Mesh node of corner c = 0..3 of element e = I columns + J.
   KOKKOS_FUNCTION constexpr int corner(int e, int c) const {

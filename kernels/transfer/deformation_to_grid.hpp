@@ -1,9 +1,5 @@
-// The metric of the deformed sheet on the grid, from the element nodes (Eqs 22a, 24).
-//
-// In a bilinear element with nodes x00, x10, x01, x11 (first index along xi_1) and edge h
-//   F_i1 = [(1 - xi_2)(x10 - x00)_i + xi_2 (x11 - x01)_i] / h
-//   F_i2 = [(1 - xi_1)(x01 - x00)_i + xi_1 (x11 - x10)_i] / h
-//   x_i,12 = (x00 - x10 - x01 + x11)_i / h^2
+// The metric of the deformed sheet on the grid, from the element nodes (Eqs 22a, 24). F is smooth in
+// an element and jumps between elements; every FD cell lies inside one element.
 //
 //   view      shape        unit     access
 //   nodes     (nodes, 2)   length   read, of one member
@@ -11,8 +7,7 @@
 #pragma once
 
 #include "kernels/base/tensor2.hpp"
-#include "kernels/base/views.hpp"
-#include "kernels/elastic/element_grid.hpp"
+#include "kernels/elastic/kinematics.hpp"
 #include "kernels/tissue/metric.hpp"
 
 namespace myowave::transfer {
@@ -22,35 +17,6 @@ struct DeformationBounds {
   double max_trace_inverse_C = 0;  // the stability bound's tr C^-1; 2 undeformed
   double min_J = 0;                // det F
 };
-
-// One element's map, from 8 nodal numbers.
-struct BilinearMap {
-  double x00[2], x10[2], x01[2], x11[2];
-  double inverse_h;
-
-  KOKKOS_INLINE_FUNCTION Mat2 deformation_gradient(double xi_1, double xi_2) const {
-    const double s = 1 - xi_1, t = 1 - xi_2;
-    return {inverse_h * (t * (x10[0] - x00[0]) + xi_2 * (x11[0] - x01[0])),
-            inverse_h * (s * (x01[0] - x00[0]) + xi_1 * (x11[0] - x10[0])),
-            inverse_h * (t * (x10[1] - x00[1]) + xi_2 * (x11[1] - x01[1])),
-            inverse_h * (s * (x01[1] - x00[1]) + xi_1 * (x11[1] - x10[1]))};
-  }
-  // Component i = 0, 1 of x_,12, constant in the element.
-  KOKKOS_INLINE_FUNCTION double mixed_derivative(int i) const {
-    return inverse_h * inverse_h * (x00[i] - x10[i] - x01[i] + x11[i]);
-  }
-};
-
-template <class MemorySpace>
-KOKKOS_INLINE_FUNCTION BilinearMap element_map(const elastic::ElementGrid& elements,
-                                               const Nodes<MemorySpace>& nodes, int I, int J) {
-  const int n00 = elements.node(I, J), n01 = elements.node(I + 1, J);
-  return {{nodes(n00, 0), nodes(n00, 1)},
-          {nodes(n00 + 1, 0), nodes(n00 + 1, 1)},
-          {nodes(n01, 0), nodes(n01, 1)},
-          {nodes(n01 + 1, 0), nodes(n01 + 1, 1)},
-          1 / elements.h};
-}
 
 // Writes the metric of one member of the `conservative` form. Holds the scratch that it needs, so
 // that a refresh allocates nothing.
@@ -91,10 +57,10 @@ class ConservativeTransfer {
         Kokkos::RangePolicy<ExecutionSpace>(space, 0, (grid_.rows - 1) * elements.columns),
         KOKKOS_LAMBDA(int strip, double& max_trace, double& min_J) {
           const int i = strip / elements.columns, J = strip % elements.columns, I = i / cells;
-          const BilinearMap map = element_map(elements, nodes, I, J);
+          const auto element = elastic::element_nodes(elements, nodes, elements.element(I, J));
           const double xi_2 = (i - I * cells + 0.5) * width;
           for (int c = 0; c < cells; ++c) {
-            const Mat2 F = map.deformation_gradient((c + 0.5) * width, xi_2);
+            const Mat2 F = elastic::deformation_gradient(element, (c + 0.5) * width, xi_2, elements.h);
             const Sym2 C = right_cauchy_green(F);
             const double det_F = determinant(F);
             const double inverse_J = 1 / det_F;
@@ -162,8 +128,8 @@ class ExpandedTransfer {
           for (int I = Kokkos::max(0, (i - 1) / cells); I <= Kokkos::min(elements.rows - 1, i / cells); ++I)
             for (int J = Kokkos::max(0, (j - 1) / cells); J <= Kokkos::min(elements.columns - 1, j / cells);
                  ++J) {
-              sum += node_metric(element_map(elements, nodes, I, J), (j - J * cells) / double(cells),
-                                 (i - I * cells) / double(cells));
+              sum += node_metric(elastic::element_nodes(elements, nodes, elements.element(I, J)), elements.h,
+                                 (j - J * cells) / double(cells), (i - I * cells) / double(cells));
               ++adjacent;
             }
           const double mean = 1.0 / adjacent;
@@ -184,11 +150,16 @@ class ExpandedTransfer {
   };
 
   // C^-1 and b^N = 2 g^12 (F^-1)^N_k x_k,12 inside one element.
-  KOKKOS_INLINE_FUNCTION static NodeMetric node_metric(const BilinearMap& map, double xi_1, double xi_2) {
-    const Mat2 F = map.deformation_gradient(xi_1, xi_2);
+  KOKKOS_INLINE_FUNCTION static NodeMetric node_metric(const elastic::ElementNodes& element, double h,
+                                                       double xi_1, double xi_2) {
+    const Mat2 F = elastic::deformation_gradient(element, xi_1, xi_2, h);
     const Sym2 g = inverse(right_cauchy_green(F));
     const double inverse_J = 1 / determinant(F);
-    const double x_12 = map.mixed_derivative(0), y_12 = map.mixed_derivative(1);
+    // x_,12 is constant in a bilinear element.
+    const auto mixed = [&](int k) {
+      return (element.x[0][k] - element.x[1][k] - element.x[2][k] + element.x[3][k]) / (h * h);
+    };
+    const double x_12 = mixed(0), y_12 = mixed(1);
     return {g.m11, g.m12, g.m22, 2 * g.m12 * inverse_J * (F.m22 * x_12 - F.m12 * y_12),
             2 * g.m12 * inverse_J * (F.m11 * y_12 - F.m21 * x_12)};
   }
@@ -203,9 +174,9 @@ class ExpandedTransfer {
                                                                {grid_.rows - 1, grid_.columns - 1}),
         KOKKOS_LAMBDA(int i, int j, double& max_trace, double& min_J) {
           const int I = i / cells, J = j / cells;
-          const Mat2 F =
-              element_map(elements, nodes, I, J)
-                  .deformation_gradient((j - J * cells + 0.5) / cells, (i - I * cells + 0.5) / cells);
+          const auto element = elastic::element_nodes(elements, nodes, elements.element(I, J));
+          const Mat2 F = elastic::deformation_gradient(element, (j - J * cells + 0.5) / cells,
+                                                       (i - I * cells + 0.5) / cells, elements.h);
           const double det_F = determinant(F);
           max_trace = Kokkos::max(max_trace, trace(right_cauchy_green(F)) / (det_F * det_F));
           min_J = Kokkos::min(min_J, det_F);

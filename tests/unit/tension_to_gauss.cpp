@@ -28,8 +28,8 @@ Values gauss_of(const Sheet& sheet, const std::vector<Values>& Ta, int member) {
 }
 
 TEST(TensionToGauss, PointsAreThoseOfTheTwoPointRule) {
-  EXPECT_NEAR(gauss_coordinate(0), 0.5 - 0.5 / std::sqrt(3.0), 1e-16);
-  EXPECT_NEAR(gauss_coordinate(1), 0.5 + 0.5 / std::sqrt(3.0), 1e-16);
+  EXPECT_NEAR(elastic::gauss_coordinate(0), 0.5 - 0.5 / std::sqrt(3.0), 1e-16);
+  EXPECT_NEAR(elastic::gauss_coordinate(1), 0.5 + 0.5 / std::sqrt(3.0), 1e-16);
 }
 
 TEST(TensionToGauss, IsExactForBilinearFields) {
@@ -42,8 +42,8 @@ TEST(TensionToGauss, IsExactForBilinearFields) {
     for (int I = 0; I < elements.rows; ++I)
       for (int J = 0; J < elements.columns; ++J)
         for (int q = 0; q < 4; ++q)
-          expected.push_back(
-              field((J + gauss_coordinate(q % 2)) * elements.h, (I + gauss_coordinate(q / 2)) * elements.h));
+          expected.push_back(field((J + elastic::gauss_coordinate(q % 2)) * elements.h,
+                                   (I + elastic::gauss_coordinate(q / 2)) * elements.h));
     EXPECT_TRUE(all_close(gauss_of<double>(sheet, {Ta}, 0), expected, 4, {.relative = 1e-14}));
     EXPECT_TRUE(all_close(gauss_of<float>(sheet, {Ta}, 0), expected, 4, {.relative = 1e-6}));
   }
