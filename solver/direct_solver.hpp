@@ -1,19 +1,22 @@
-// Sparse LDL^T factorisation of symmetric matrices of one pattern, definite or not.
+// LDL^T factorisation of symmetric matrices of one pattern, definite or not: as a band where that is
+// faster, else sparse with a fill-reducing ordering (CHOLMOD).
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
 
-namespace myowave::solver {
+#include "solver/banded_ldlt.hpp"
 
-enum class Factorization { positive_definite, indefinite, failed };
+namespace myowave::solver {
 
 class DirectSolver {
  public:
-  // Pattern of the lower triangle in compressed rows, columns ascending. It is ordered (AMD) and
-  // analysed once; the spans need not outlive the call.
-  DirectSolver(std::span<const int> row_begin, std::span<const int> column);
+  enum class Method { fastest, banded, sparse };
+
+  // Pattern of the lower triangle in compressed rows, columns ascending. It is analysed once; the
+  // spans need not outlive the call.
+  DirectSolver(std::span<const int> row_begin, std::span<const int> column, Method = Method::fastest);
   ~DirectSolver();
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
@@ -24,9 +27,6 @@ class DirectSolver {
 
   // solution = A^-1 rhs with the last factor.
   void solve(std::span<const double> rhs, std::span<double> solution);
-
-  // Entries of L that the ordering needs.
-  std::int64_t factor_entries() const;
 
  private:
   struct Impl;
