@@ -27,7 +27,7 @@ void replace_file(const std::filesystem::path& path, std::string_view content) {
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.tmp", getpid());
   try {
-    AppendedFile(temporary, content);
+    { const AppendedFile written(temporary, content); }
     std::filesystem::rename(temporary, path);
   } catch (const std::filesystem::filesystem_error& error) {
     throw_errno(path, error.code().value());

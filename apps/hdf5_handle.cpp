@@ -46,7 +46,7 @@ void write_attribute(hid_t object, const char* name, const std::string& text) {
   const Hdf5Handle attribute(H5Acreate2(object, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                              what);
   const char* characters = text.c_str();
-  check_hdf5(H5Awrite(attribute, type, &characters), what);
+  check_hdf5(H5Awrite(attribute, type, static_cast<const void*>(&characters)), what);
 }
 
 void write_attribute(hid_t object, const char* name, double value) {

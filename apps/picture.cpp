@@ -52,7 +52,7 @@ const Glyph& glyph_of(char character) {
 double digit(char c) { return c <= '9' ? c - '0' : c - 'A' + 10; }
 
 std::uint8_t mix(std::uint8_t from, std::uint8_t to, double part) {
-  return static_cast<std::uint8_t>(from + part * (to - from) + 0.5);
+  return static_cast<std::uint8_t>(std::lround(from + part * (to - from)));
 }
 
 Colour mix(const Colour& from, const Colour& to, double part) {
@@ -102,8 +102,8 @@ void Strokes::line(Point from, Point to, double width) {
       const Point off{d.x - part * along.x, d.y - part * along.y};
       const double distance = std::sqrt(off.x * off.x + off.y * off.y);
       auto& covered = coverage_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-      covered =
-          std::max(covered, static_cast<std::uint8_t>(255 * std::clamp(reach - distance, 0.0, 1.0) + 0.5));
+      covered = std::max(
+          covered, static_cast<std::uint8_t>(std::lround(255 * std::clamp(reach - distance, 0.0, 1.0))));
     }
   }
 }

@@ -378,8 +378,10 @@ class SceneReader {
     if (is_disc == is_block) return false;
     if (is_disc) return set_disc(*table, path, stimulus);
     stimulus.shape = Shape::block;
-    return set_side(*table, "columns", path, scene_.grid.columns, stimulus.columns) &
-           set_side(*table, "rows", path, scene_.grid.rows, stimulus.rows);
+    // Both, so that the errors of both are told.
+    const bool columns = set_side(*table, "columns", path, scene_.grid.columns, stimulus.columns);
+    const bool rows = set_side(*table, "rows", path, scene_.grid.rows, stimulus.rows);
+    return columns && rows;
   }
 
   bool set_disc(const toml::table& table, const std::string& path, solver::Stimulus& stimulus) {

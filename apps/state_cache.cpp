@@ -64,7 +64,7 @@ std::string read_definition(hid_t file) {
   const Hdf5Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, name);
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, name);
   char* characters = nullptr;
-  check_hdf5(H5Aread(attribute, type, &characters), name);
+  check_hdf5(H5Aread(attribute, type, static_cast<void*>(&characters)), name);
   const std::string text = characters;
   H5free_memory(characters);
   return text;
