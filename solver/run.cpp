@@ -309,11 +309,14 @@ std::uint64_t memory_bytes(const Scene& scene) {
   if (scene.metric == MetricForm::expanded) bytes += nodes * expanded_fields * real;
   const auto cells = static_cast<std::uint64_t>(scene.mechanics->cells_per_element);
   const std::uint64_t unknowns = 2 * (nodes / (cells * cells) + 1);
-  // Element matrices and the matrix itself (about 18 entries a row), and the factor, which grows as
-  // n log2 n with a fill-reducing ordering of a planar mesh (31 n log2 n / 4 entries, George 1973).
-  const double factor_entries =
-      31.0 / 4 * static_cast<double>(unknowns) * std::log2(static_cast<double>(unknowns) + 2);
-  bytes += unknowns * 600 + static_cast<std::uint64_t>(factor_entries * 12);
+  // Element matrices and the matrix itself (about 18 entries a row), and the factor: a band as wide as
+  // two rows of nodes, at most 256, or with a fill-reducing ordering 31 n log2 n / 4 entries of 12
+  // bytes (planar mesh, George 1973).
+  const double n = static_cast<double>(unknowns);
+  const double band =
+      std::min(256.0, 2.0 * (scene.grid.columns - 1) / scene.mechanics->cells_per_element + 5);
+  const double factor_bytes = std::max(8 * n * band, 12 * 31.0 / 4 * n * std::log2(n + 2));
+  bytes += unknowns * 600 + static_cast<std::uint64_t>(factor_bytes);
   return bytes;
 }
 
