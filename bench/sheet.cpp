@@ -1,0 +1,146 @@
+#include "bench/sheet.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "kernels/transfer/tension_to_gauss.hpp"
+
+namespace myowave::bench {
+namespace {
+
+// Eight random plane waves of 100 to 200 node spacings.
+class Waves {
+ public:
+  explicit Waves(unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int n = 0; n < 8; ++n) {
+      const double angle = 2 * std::numbers::pi * uniform(engine);
+      const double k = 2 * std::numbers::pi / (100 + 100 * uniform(engine));
+      waves_.push_back({k * std::cos(angle), k * std::sin(angle), 2 * std::numbers::pi * uniform(engine)});
+    }
+  }
+  double operator()(int i, int j) const {
+    double sum = 0;
+    for (const auto& w : waves_) sum += std::cos(w.k1 * j + w.k2 * i + w.phase);
+    return sum;
+  }
+
+ private:
+  struct Wave {
+    double k1, k2, phase;
+  };
+  std::vector<Wave> waves_;
+};
+
+// The angle of a point of the plane whose coordinates are two such fields: it winds round every
+// common zero, and a front there becomes a spiral.
+class Phases {
+ public:
+  // In [0, 2 pi).
+  double operator()(int i, int j) const {
+    const double angle = std::atan2(sine_(i, j), cosine_(i, j));
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+  }
+
+ private:
+  Waves sine_{1}, cosine_{2};
+};
+
+// A rigid sheet that steps on from broken fronts.
+class RigidSheet {
+ public:
+  using View = EnsembleField<float, MemorySpace>;
+
+  explicit RigidSheet(int n)
+      : diffusion_(square_grid(n)),
+        model_(solver::make_model<float>(turbulent_excitation(), {})),
+        V_("myowave::bench::V", 1, n, n),
+        V_next_("myowave::bench::V_next", 1, n, n),
+        r_("myowave::bench::r", 1, n, n),
+        Ta_("myowave::bench::Ta", 1, n, n) {
+    // Excited, then refractory, then at rest as the angle grows.
+    const Phases phase;
+    fill(V_, [&](int i, int j) { return phase(i, j) < 0.7 ? 1.0F : 0.0F; });
+    fill(r_, [&](int i, int j) { return phase(i, j) >= 0.7 && phase(i, j) < 3.5 ? 1.5F : 0.0F; });
+  }
+
+  void advance(int steps) {
+    for (int n = 0; n < steps; ++n) {
+      tissue::monodomain_step(ExecutionSpace(), diffusion_, model_, dt, V_, r_, Ta_, V_next_);
+      std::swap(V_, V_next_);
+    }
+    Kokkos::fence("myowave::bench::advance");
+  }
+
+  // Of the first n rows and columns.
+  solver::InitialState state(int n) const {
+    const auto window = [n](const View& view) {
+      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+      std::vector<double> values;
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) values.push_back(host(0, i, j));
+      return values;
+    };
+    return {n, n, window(V_), window(r_), window(Ta_)};
+  }
+  const View& Ta() const { return Ta_; }
+
+ private:
+  tissue::IdentityDiffusion<float, MemorySpace> diffusion_;
+  solver::Model<float> model_;
+  View V_, V_next_, r_, Ta_;
+};
+
+constexpr int settling_steps = 4000;  // 80 t.u.: the fronts have become spirals
+// Turbulence dies in a smaller sheet: such a one is a window of this one.
+constexpr int least_n = 251;
+constexpr int interval = 80;  // steps between solves
+
+}  // namespace
+
+solver::ExcitationSettings turbulent_excitation() {
+  solver::ExcitationSettings excitation;
+  excitation.mu1 = 0.07;
+  return excitation;
+}
+
+const solver::InitialState& turbulent_state(int n) {
+  static std::map<int, solver::InitialState> known;
+  const auto found = known.find(n);
+  if (found != known.end()) return found->second;
+  RigidSheet sheet(std::max(n, least_n));
+  sheet.advance(settling_steps);
+  return known[n] = sheet.state(n);
+}
+
+const std::vector<std::vector<double>>& turbulent_tension(int elements_a_side) {
+  static std::map<int, std::vector<std::vector<double>>> known;
+  auto& sequence = known[elements_a_side];
+  if (!sequence.empty()) return sequence;
+  const int n = cells_per_element * elements_a_side + 1, instants = elements_a_side > 50 ? 4 : 10;
+  const auto elements = square_elements(n);
+  const GaussTension<MemorySpace> gauss("myowave::bench::gauss_tension", elements.elements());
+  RigidSheet sheet(std::max(n, least_n));
+  sheet.advance(settling_steps);
+  for (int instant = 0; instant < instants; ++instant) {
+    transfer::tension_to_gauss<ExecutionSpace, float>(ExecutionSpace(), elements, cells_per_element,
+                                                      sheet.Ta(), 0, gauss);
+    sequence.push_back(to_host(gauss));
+    sheet.advance(interval);
+  }
+  return sequence;
+}
+
+GaussTension<MemorySpace> to_gauss_tension(const std::vector<double>& values) {
+  const GaussTension<MemorySpace> gauss("myowave::bench::gauss_tension",
+                                        values.size() / elastic::gauss_points);
+  Kokkos::deep_copy(gauss, Kokkos::View<const double* [4], Kokkos::LayoutRight, Kokkos::HostSpace>(
+                               values.data(), values.size() / elastic::gauss_points));
+  return gauss;
+}
+
+}  // namespace myowave::bench

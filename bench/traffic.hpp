@@ -1,0 +1,85 @@
+// Bytes and operations that one item (a node for a step, an entry, an element) costs if every array
+// is read and written once and neighbours come from the cache. The table in bench/README.md shows the
+// same numbers.
+#pragma once
+
+namespace myowave::bench {
+
+struct Traffic {
+  double reads = 0;   // bytes
+  double writes = 0;  // bytes
+  // Bytes of lines that are written without having been read: a host reads them first, a GPU does not.
+  double allocates = 0;
+  double flops = 0;  // additions, multiplications, divisions and comparisons that select
+
+  constexpr double host_bytes() const { return reads + writes + allocates; }
+  constexpr double device_bytes() const { return reads + writes; }
+};
+
+// f(V, r) 7, r_t 10, Ta_t 4 with its comparison, and 8 that add them to the old state.
+inline constexpr double reaction_flops = 29;
+inline constexpr double identity_flops = reaction_flops + 6;
+inline constexpr double conservative_flops = reaction_flops + 24;
+inline constexpr double expanded_flops = reaction_flops + 26;
+
+// V read, V_next written, r and Ta in place, and `coefficients` arrays.
+template <class Real>
+constexpr Traffic step_traffic(int coefficients, double flops) {
+  constexpr double real = sizeof(Real);
+  return {(3 + coefficients) * real, 3 * real, real, flops};
+}
+
+// V, r and Ta from old arrays to new ones.
+template <class Real>
+constexpr Traffic plain_traffic(int coefficients, double flops) {
+  constexpr double real = sizeof(Real);
+  return {(3 + coefficients) * real, 3 * real, 3 * real, flops};
+}
+
+// A node: G11, G22, sqrt C and the diagonal written by the first pass; the first three read, three
+// weights written by the second.
+template <class Real>
+constexpr Traffic conservative_refresh_traffic() {
+  constexpr double real = sizeof(Real);
+  return {3 * real, 7 * real, 7 * real, 65};
+}
+
+// A node: five coefficients written; the bounds read nodes only. Twice F, its inverse and C^-1.
+template <class Real>
+constexpr Traffic expanded_refresh_traffic() {
+  constexpr double real = sizeof(Real);
+  return {0, 5 * real, 5 * real, 120};
+}
+
+// An element: four values at each of four Gauss points read, four written.
+template <class Real>
+constexpr Traffic tension_traffic() {
+  return {16 * sizeof(Real), 4 * sizeof(double), 4 * sizeof(double), 4 * 19};
+}
+
+// An element: a node's position and the tension read, 8 + 36 numbers written and read again, and
+// about 18 slots of the tangent written with their lists of sources (4 + 4 B) read. Operations: 4
+// Gauss points with F 20, C 9, energy derivatives 40, D and S 60, A 130, tangent rows 4 x 24 and
+// 10 pairs of nodes x 12 and R 32.
+inline constexpr Traffic assemble_traffic{(2 + 4 + 44) * 8.0 + 36 * 8.0, (44 + 2 + 18) * 8.0,
+                                          (44 + 2 + 18) * 8.0, 4 * 507.0};
+
+// An element: positions and tension read, the energy written.
+inline constexpr Traffic energy_traffic{(2 + 4) * 8.0, 8, 8, 4 * 20 + 4 * 70.0};
+
+// A node: V read; tips are rare.
+template <class Real>
+constexpr Traffic tips_traffic() {
+  return {sizeof(Real), 0, 0, 4};
+}
+
+// A node: V, r, Ta read.
+template <class Real>
+constexpr Traffic finite_check_traffic() {
+  return {3 * sizeof(Real), 0, 0, 4};
+}
+
+// An element: two numbers of a node read, the area written.
+inline constexpr Traffic area_traffic{16, 8, 8, 8};
+
+}  // namespace myowave::bench
