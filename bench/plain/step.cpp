@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#if defined(_OPENMP)
+#include <omp.h>
+#endif
+
 namespace myowave::plain {
 
 template <class Real>
@@ -88,16 +92,15 @@ inline void along_row(int n, const Body& body) {
   body(n - 2, n - 1, n - 2);
 }
 
-// The row functions stand alone, so that one thread and many run the same instructions. They take
+// The row functions take
 // every row as a pointer of its own: gathered in a struct they would be stored and read back at every
 // call, which costs a third of a short row. The constants are copied: a store to a field cannot
 // change them.
 template <class Real>
-[[gnu::noinline]] void identity_row(const Constants<Real>& constants, int n, const Real* __restrict below,
-                                    const Real* __restrict V, const Real* __restrict above,
-                                    const Real* __restrict r, const Real* __restrict Ta,
-                                    Real* __restrict V_next, Real* __restrict r_next,
-                                    Real* __restrict Ta_next) {
+void identity_row(const Constants<Real>& constants, int n, const Real* __restrict below,
+                  const Real* __restrict V, const Real* __restrict above, const Real* __restrict r,
+                  const Real* __restrict Ta, Real* __restrict V_next, Real* __restrict r_next,
+                  Real* __restrict Ta_next) {
   const Constants<Real> c = constants;
   const Real inverse_dx2 = 1 / (c.dx * c.dx);
   along_row(n, [=](int west, int j, int east) {
@@ -111,13 +114,14 @@ template <class Real>
 
 // Weights are shifted by one: [j + 1] is that of column j.
 template <class Real>
-[[gnu::noinline]] void conservative_row(
-    const Constants<Real>& constants, int n, const Real* __restrict east_weight, const Real* __restrict north,
-    const Real* __restrict north_below, const Real* __restrict rising, const Real* __restrict rising_below,
-    const Real* __restrict falling, const Real* __restrict falling_below, const Real* __restrict inverse_mass,
-    const Real* __restrict below, const Real* __restrict V, const Real* __restrict above,
-    const Real* __restrict r, const Real* __restrict Ta, Real* __restrict V_next, Real* __restrict r_next,
-    Real* __restrict Ta_next) {
+void conservative_row(const Constants<Real>& constants, int n, const Real* __restrict east_weight,
+                      const Real* __restrict north, const Real* __restrict north_below,
+                      const Real* __restrict rising, const Real* __restrict rising_below,
+                      const Real* __restrict falling, const Real* __restrict falling_below,
+                      const Real* __restrict inverse_mass, const Real* __restrict below,
+                      const Real* __restrict V, const Real* __restrict above, const Real* __restrict r,
+                      const Real* __restrict Ta, Real* __restrict V_next, Real* __restrict r_next,
+                      Real* __restrict Ta_next) {
   const Constants<Real> c = constants;
   along_row(n, [=](int west, int j, int east) {
     const Real here = V[j];
@@ -132,14 +136,47 @@ template <class Real>
   });
 }
 
+// A thread's share of the rows, in one call: one thread and many run the same instructions.
+template <class Real>
+[[gnu::noinline]] void identity_rows(const Constants<Real>& c, int n, const Fields<Real>& old,
+                                     const Fields<Real>& next, int first, int last) {
+  for (int i = first; i < last; ++i) {
+    const std::size_t row = static_cast<std::size_t>(i) * n;
+    const std::size_t below = i > 0 ? row - n : row + n, above = i < n - 1 ? row + n : row - n;
+    identity_row(c, n, &old.V[below], &old.V[row], &old.V[above], &old.r[row], &old.Ta[row], &next.V[row],
+                 &next.r[row], &next.Ta[row]);
+  }
+}
+
+template <class Real>
+[[gnu::noinline]] void conservative_rows(const Constants<Real>& c, const EdgeNetwork<Real>& w,
+                                         const Fields<Real>& old, const Fields<Real>& next, int first,
+                                         int last) {
+  const int n = w.n;
+  for (int i = first; i < last; ++i) {
+    const std::size_t row = static_cast<std::size_t>(i) * n;
+    const std::size_t below = i > 0 ? row - n : row + n, above = i < n - 1 ? row + n : row - n;
+    const std::size_t here = static_cast<std::size_t>(i + 1) * (n + 1), lower = here - (n + 1);
+    conservative_row(c, n, &w.east[here], &w.north[here], &w.north[lower], &w.rising[here], &w.rising[lower],
+                     &w.falling[here], &w.falling[lower], &w.inverse_mass[here], &old.V[below], &old.V[row],
+                     &old.V[above], &old.r[row], &old.Ta[row], &next.V[row], &next.r[row], &next.Ta[row]);
+  }
+}
+
+// body(first, last) on every thread's share of n rows.
 template <class Body>
-void for_rows(Threads threads, int n, const Body& body) {
-  if (threads == Threads::one) {
-    for (int i = 0; i < n; ++i) body(i);
+void share_rows(Threads threads, int n, const Body& body) {
+#if defined(_OPENMP)
+  if (threads == Threads::all) {
+#pragma omp parallel
+    {
+      const long thread = omp_get_thread_num(), count = omp_get_num_threads();
+      body(static_cast<int>(thread * n / count), static_cast<int>((thread + 1) * n / count));
+    }
     return;
   }
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < n; ++i) body(i);
+#endif
+  body(0, n);
 }
 
 }  // namespace
@@ -147,26 +184,13 @@ void for_rows(Threads threads, int n, const Body& body) {
 template <class Real>
 void step_identity(Threads threads, const Constants<Real>& c, int n, const Fields<Real>& old,
                    const Fields<Real>& next) {
-  for_rows(threads, n, [&](int i) {
-    const std::size_t row = static_cast<std::size_t>(i) * n;
-    const std::size_t below = i > 0 ? row - n : row + n, above = i < n - 1 ? row + n : row - n;
-    identity_row(c, n, &old.V[below], &old.V[row], &old.V[above], &old.r[row], &old.Ta[row], &next.V[row],
-                 &next.r[row], &next.Ta[row]);
-  });
+  share_rows(threads, n, [&](int first, int last) { identity_rows(c, n, old, next, first, last); });
 }
 
 template <class Real>
 void step_conservative(Threads threads, const Constants<Real>& c, const EdgeNetwork<Real>& w,
                        const Fields<Real>& old, const Fields<Real>& next) {
-  const int n = w.n;
-  for_rows(threads, n, [&](int i) {
-    const std::size_t row = static_cast<std::size_t>(i) * n;
-    const std::size_t below = i > 0 ? row - n : row + n, above = i < n - 1 ? row + n : row - n;
-    const std::size_t here = static_cast<std::size_t>(i + 1) * (n + 1), lower = here - (n + 1);
-    conservative_row(c, n, &w.east[here], &w.north[here], &w.north[lower], &w.rising[here], &w.rising[lower],
-                     &w.falling[here], &w.falling[lower], &w.inverse_mass[here], &old.V[below], &old.V[row],
-                     &old.V[above], &old.r[row], &old.Ta[row], &next.V[row], &next.r[row], &next.Ta[row]);
-  });
+  share_rows(threads, w.n, [&](int first, int last) { conservative_rows(c, w, old, next, first, last); });
 }
 
 template class Array<double>;
