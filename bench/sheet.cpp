@@ -1,6 +1,5 @@
 #include "bench/sheet.hpp"
 
-#include <algorithm>
 #include <map>
 #include <numbers>
 #include <random>
@@ -50,7 +49,11 @@ class Phases {
   Waves sine_{1}, cosine_{2};
 };
 
-// A rigid sheet that steps on from broken fronts.
+constexpr int scene_n = 251;
+// Spirals die in a sheet smaller than the scene's: such a one is a window of this one.
+constexpr int window_of = 301;
+
+// A rigid sheet in which spirals have settled.
 class RigidSheet {
  public:
   using View = EnsembleField<float, MemorySpace>;
@@ -62,10 +65,10 @@ class RigidSheet {
         V_next_("myowave::bench::V_next", 1, n, n),
         r_("myowave::bench::r", 1, n, n),
         Ta_("myowave::bench::Ta", 1, n, n) {
-    // Excited, then refractory, then at rest as the angle grows.
-    const Phases phase;
-    fill(V_, [&](int i, int j) { return phase(i, j) < 0.7 ? 1.0F : 0.0F; });
-    fill(r_, [&](int i, int j) { return phase(i, j) >= 0.7 && phase(i, j) < 3.5 ? 1.5F : 0.0F; });
+    if (n == scene_n)
+      start_as_the_scene();
+    else
+      start_with_spirals();
   }
 
   void advance(int steps) {
@@ -90,14 +93,28 @@ class RigidSheet {
   const View& Ta() const { return Ta_; }
 
  private:
+  // apps/scenes/contracting_turbulence.toml: one broken front that breaks up within 900 t.u.
+  void start_as_the_scene() {
+    constexpr int middle = (scene_n - 1) / 2, width = 10, steps = 45'000;
+    fill(V_, [](int i, int j) { return middle - width < j && j <= middle && i <= middle ? 1.0F : 0.0F; });
+    fill(r_, [](int, int j) { return j <= middle - width ? 1.5F : 0.0F; });
+    advance(steps);
+  }
+
+  // Excited, then refractory, then at rest as the angle grows; 80 t.u. make spirals of it.
+  void start_with_spirals() {
+    constexpr int steps = 4000;
+    const Phases phase;
+    fill(V_, [&](int i, int j) { return phase(i, j) < 0.7 ? 1.0F : 0.0F; });
+    fill(r_, [&](int i, int j) { return phase(i, j) >= 0.7 && phase(i, j) < 3.5 ? 1.5F : 0.0F; });
+    advance(steps);
+  }
+
   tissue::IdentityDiffusion<float, MemorySpace> diffusion_;
   solver::Model<float> model_;
   View V_, V_next_, r_, Ta_;
 };
 
-constexpr int settling_steps = 4000;  // 80 t.u.: the fronts have become spirals
-// Turbulence dies in a smaller sheet: such a one is a window of this one.
-constexpr int least_n = 251;
 constexpr int interval = 80;  // steps between solves
 
 }  // namespace
@@ -112,8 +129,7 @@ const solver::InitialState& turbulent_state(int n) {
   static std::map<int, solver::InitialState> known;
   const auto found = known.find(n);
   if (found != known.end()) return found->second;
-  RigidSheet sheet(std::max(n, least_n));
-  sheet.advance(settling_steps);
+  RigidSheet sheet(n < scene_n ? window_of : n);
   return known[n] = sheet.state(n);
 }
 
@@ -124,8 +140,7 @@ const std::vector<std::vector<double>>& turbulent_tension(int elements_a_side) {
   const int n = cells_per_element * elements_a_side + 1, instants = elements_a_side > 50 ? 4 : 10;
   const auto elements = square_elements(n);
   const GaussTension<MemorySpace> gauss("myowave::bench::gauss_tension", elements.elements());
-  RigidSheet sheet(std::max(n, least_n));
-  sheet.advance(settling_steps);
+  RigidSheet sheet(n < scene_n ? window_of : n);
   for (int instant = 0; instant < instants; ++instant) {
     transfer::tension_to_gauss<ExecutionSpace, float>(ExecutionSpace(), elements, cells_per_element,
                                                       sheet.Ta(), 0, gauss);

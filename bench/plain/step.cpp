@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#if defined(_OPENMP)
+#include <omp.h>
+#endif
+
 namespace myowave::plain {
 
 template <class Real>
@@ -67,33 +71,16 @@ void EdgeNetwork<Real>::refresh(int cells, double dx, std::span<const double> no
 
 namespace {
 
-// What one row reads and writes.
 template <class Real>
-struct Row {
-  const Real* __restrict below, * __restrict V, * __restrict above, * __restrict r, * __restrict Ta;
-  Real* __restrict V_next, * __restrict r_next, * __restrict Ta_next;
-
-  Row(int i, int n, const Fields<Real>& old, const Fields<Real>& next) {
-    const auto row = [n](const Array<Real>& field, int k) {
-      return field.data() + static_cast<std::size_t>(k) * n;
-    };
-    below = row(old.V, i > 0 ? i - 1 : 1);
-    V = row(old.V, i);
-    above = row(old.V, i < n - 1 ? i + 1 : n - 2);
-    r = row(old.r, i);
-    Ta = row(old.Ta, i);
-    V_next = row(next.V, i);
-    r_next = row(next.r, i);
-    Ta_next = row(next.Ta, i);
-  }
+struct Node {
+  Real V, r, Ta;
 };
 
 template <class Real>
-inline void update(const Constants<Real>& c, const Row<Real>& row, int j, Real diffusion) {
-  const Real V = row.V[j], r = row.r[j], Ta = row.Ta[j];
-  row.V_next[j] = V + c.dt * c.inverse_C_m * (c.D * diffusion - c.k * V * (V - c.a) * (V - Real(1)) - r * V);
-  row.r_next[j] = r + c.dt * (c.eps + c.mu1 * r / (c.mu2 + V)) * (-r - c.k * V * (V - c.b - Real(1)));
-  row.Ta_next[j] = Ta + c.dt * (V < c.threshold ? c.eps_below : c.eps_above) * (c.k_Ta * V - Ta);
+inline Node<Real> updated(const Constants<Real>& c, Real V, Real r, Real Ta, Real diffusion) {
+  return {V + c.dt * c.inverse_C_m * (c.D * diffusion - c.k * V * (V - c.a) * (V - Real(1)) - r * V),
+          r + c.dt * (c.eps + c.mu1 * r / (c.mu2 + V)) * (-r - c.k * V * (V - c.b - Real(1))),
+          Ta + c.dt * (V < c.threshold ? c.eps_below : c.eps_above) * (c.k_Ta * V - Ta)};
 }
 
 // body(west, j, east) along a row, mirrored at its ends.
@@ -105,53 +92,91 @@ inline void along_row(int n, const Body& body) {
   body(n - 2, n - 1, n - 2);
 }
 
+// The row functions take
+// every row as a pointer of its own: gathered in a struct they would be stored and read back at every
+// call, which costs a third of a short row. The constants are copied: a store to a field cannot
+// change them.
 template <class Real>
-void identity_row(const Constants<Real>& c, Real inverse_dx2, int n, const Row<Real> row) {
+void identity_row(const Constants<Real>& constants, int n, const Real* __restrict below,
+                  const Real* __restrict V, const Real* __restrict above, const Real* __restrict r,
+                  const Real* __restrict Ta, Real* __restrict V_next, Real* __restrict r_next,
+                  Real* __restrict Ta_next) {
+  const Constants<Real> c = constants;
+  const Real inverse_dx2 = 1 / (c.dx * c.dx);
   along_row(n, [=](int west, int j, int east) {
-    const Real sum = (row.V[west] + row.V[east]) + (row.below[j] + row.above[j]);
-    update(c, row, j, inverse_dx2 * (sum - Real(4) * row.V[j]));
+    const Real sum = (V[west] + V[east]) + (below[j] + above[j]);
+    const auto next = updated(c, V[j], r[j], Ta[j], inverse_dx2 * (sum - Real(4) * V[j]));
+    V_next[j] = next.V;
+    r_next[j] = next.r;
+    Ta_next[j] = next.Ta;
   });
 }
 
 // Weights are shifted by one: [j + 1] is that of column j.
 template <class Real>
-struct WeightRow {
-  const Real* __restrict east, * __restrict north, * __restrict north_below, * __restrict rising, * __restrict rising_below, * __restrict falling, * __restrict falling_below, * __restrict inverse_mass;
-
-  WeightRow(int i, const EdgeNetwork<Real>& w) {
-    const std::size_t here = static_cast<std::size_t>(i + 1) * (w.n + 1), lower = here - (w.n + 1);
-    east = w.east.data() + here;
-    north = w.north.data() + here;
-    north_below = w.north.data() + lower;
-    rising = w.rising.data() + here;
-    rising_below = w.rising.data() + lower;
-    falling = w.falling.data() + here;
-    falling_below = w.falling.data() + lower;
-    inverse_mass = w.inverse_mass.data() + here;
-  }
-};
-
-template <class Real>
-void conservative_row(const Constants<Real>& c, int n, const Row<Real> row, const WeightRow<Real> w) {
+void conservative_row(const Constants<Real>& constants, int n, const Real* __restrict east_weight,
+                      const Real* __restrict north, const Real* __restrict north_below,
+                      const Real* __restrict rising, const Real* __restrict rising_below,
+                      const Real* __restrict falling, const Real* __restrict falling_below,
+                      const Real* __restrict inverse_mass, const Real* __restrict below,
+                      const Real* __restrict V, const Real* __restrict above, const Real* __restrict r,
+                      const Real* __restrict Ta, Real* __restrict V_next, Real* __restrict r_next,
+                      Real* __restrict Ta_next) {
+  const Constants<Real> c = constants;
   along_row(n, [=](int west, int j, int east) {
-    const Real V = row.V[j];
-    const Real straight = w.east[j + 1] * (row.V[east] - V) + w.east[j] * (row.V[west] - V) +
-                          w.north[j + 1] * (row.above[j] - V) + w.north_below[j + 1] * (row.below[j] - V);
-    const Real oblique = w.rising[j + 1] * (row.above[east] - V) + w.rising_below[j] * (row.below[west] - V) +
-                         w.falling[j] * (row.above[west] - V) +
-                         w.falling_below[j + 1] * (row.below[east] - V);
-    update(c, row, j, w.inverse_mass[j + 1] * (straight + oblique));
+    const Real here = V[j];
+    const Real straight = east_weight[j + 1] * (V[east] - here) + east_weight[j] * (V[west] - here) +
+                          north[j + 1] * (above[j] - here) + north_below[j + 1] * (below[j] - here);
+    const Real oblique = rising[j + 1] * (above[east] - here) + rising_below[j] * (below[west] - here) +
+                         falling[j] * (above[west] - here) + falling_below[j + 1] * (below[east] - here);
+    const auto next = updated(c, here, r[j], Ta[j], inverse_mass[j + 1] * (straight + oblique));
+    V_next[j] = next.V;
+    r_next[j] = next.r;
+    Ta_next[j] = next.Ta;
   });
 }
 
+// A thread's share of the rows, in one call: one thread and many run the same instructions.
+template <class Real>
+[[gnu::noinline]] void identity_rows(const Constants<Real>& c, int n, const Fields<Real>& old,
+                                     const Fields<Real>& next, int first, int last) {
+  for (int i = first; i < last; ++i) {
+    const std::size_t row = static_cast<std::size_t>(i) * n;
+    const std::size_t below = i > 0 ? row - n : row + n, above = i < n - 1 ? row + n : row - n;
+    identity_row(c, n, &old.V[below], &old.V[row], &old.V[above], &old.r[row], &old.Ta[row], &next.V[row],
+                 &next.r[row], &next.Ta[row]);
+  }
+}
+
+template <class Real>
+[[gnu::noinline]] void conservative_rows(const Constants<Real>& c, const EdgeNetwork<Real>& w,
+                                         const Fields<Real>& old, const Fields<Real>& next, int first,
+                                         int last) {
+  const int n = w.n;
+  for (int i = first; i < last; ++i) {
+    const std::size_t row = static_cast<std::size_t>(i) * n;
+    const std::size_t below = i > 0 ? row - n : row + n, above = i < n - 1 ? row + n : row - n;
+    const std::size_t here = static_cast<std::size_t>(i + 1) * (n + 1), lower = here - (n + 1);
+    conservative_row(c, n, &w.east[here], &w.north[here], &w.north[lower], &w.rising[here], &w.rising[lower],
+                     &w.falling[here], &w.falling[lower], &w.inverse_mass[here], &old.V[below], &old.V[row],
+                     &old.V[above], &old.r[row], &old.Ta[row], &next.V[row], &next.r[row], &next.Ta[row]);
+  }
+}
+
+// body(first, last) on every thread's share of n rows.
 template <class Body>
-void for_rows(Threads threads, int n, const Body& body) {
-  if (threads == Threads::one) {
-    for (int i = 0; i < n; ++i) body(i);
+void share_rows(Threads threads, int n, const Body& body) {
+#if defined(_OPENMP)
+  if (threads == Threads::all) {
+#pragma omp parallel
+    {
+      const long thread = omp_get_thread_num(), count = omp_get_num_threads();
+      body(static_cast<int>(thread * n / count), static_cast<int>((thread + 1) * n / count));
+    }
     return;
   }
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < n; ++i) body(i);
+#endif
+  body(0, n);
 }
 
 }  // namespace
@@ -159,15 +184,13 @@ void for_rows(Threads threads, int n, const Body& body) {
 template <class Real>
 void step_identity(Threads threads, const Constants<Real>& c, int n, const Fields<Real>& old,
                    const Fields<Real>& next) {
-  const Real inverse_dx2 = 1 / (c.dx * c.dx);
-  for_rows(threads, n, [&](int i) { identity_row(c, inverse_dx2, n, Row<Real>(i, n, old, next)); });
+  share_rows(threads, n, [&](int first, int last) { identity_rows(c, n, old, next, first, last); });
 }
 
 template <class Real>
 void step_conservative(Threads threads, const Constants<Real>& c, const EdgeNetwork<Real>& w,
                        const Fields<Real>& old, const Fields<Real>& next) {
-  for_rows(threads, w.n,
-           [&](int i) { conservative_row(c, w.n, Row<Real>(i, w.n, old, next), WeightRow<Real>(i, w)); });
+  share_rows(threads, w.n, [&](int first, int last) { conservative_rows(c, w, old, next, first, last); });
 }
 
 template class Array<double>;
