@@ -62,7 +62,7 @@ Newton::Newton(const elastic::ElementGrid& grid, const solver::MechanicsSettings
     : mesh_(solver::make_mesh(grid, settings.edges)),
       settings_(settings),
       membrane_(membrane_of(settings)),
-      solver_(mesh_.row_begin, mesh_.column),
+      solver_(mesh_.row_begin, mesh_.column, solver::DirectSolver::Method::sparse),
       energy_unit_(elastic::passive_energy(membrane_.passive, 2, 1).w * grid.elements() * grid.h * grid.h),
       nodes_(2 * grid.nodes()),
       current_(nodes_.size()),
