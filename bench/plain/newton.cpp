@@ -105,8 +105,9 @@ void Newton::solve(std::span<const double> Ta) {
       if (minimise(mixed)) {
         reached = target;
         start = current_;
-      } else if ((part /= 2) < least_ramp_part) {
-        throw std::runtime_error("the plain Newton solve found no equilibrium");
+      } else {
+        part /= 2;
+        if (part < least_ramp_part) throw std::runtime_error("the plain Newton solve found no equilibrium");
       }
     }
   }

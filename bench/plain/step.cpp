@@ -92,10 +92,9 @@ inline void along_row(int n, const Body& body) {
   body(n - 2, n - 1, n - 2);
 }
 
-// The row functions take
-// every row as a pointer of its own: gathered in a struct they would be stored and read back at every
-// call, which costs a third of a short row. The constants are copied: a store to a field cannot
-// change them.
+// The row functions take every row as a pointer of its own: gathered in a struct they would be stored
+// and read back at every call, which costs a third of a short row. The constants are copied: a store to
+// a field cannot change them.
 template <class Real>
 void identity_row(const Constants<Real>& constants, int n, const Real* __restrict below,
                   const Real* __restrict V, const Real* __restrict above, const Real* __restrict r,
