@@ -26,10 +26,6 @@ struct MonodomainModel {
   Real inverse_C_m = 1;  // 1 / membrane capacitance
 };
 
-// Bytes that one node must move in one step from and to memory, coefficients apart.
-template <class Real>
-constexpr std::size_t state_bytes_per_node = 6 * sizeof(Real);
-
 template <class ExecutionSpace, class Diffusion, class Model>
 struct MonodomainStep {
   using Real = typename Diffusion::Scalar;
