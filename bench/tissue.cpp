@@ -11,16 +11,21 @@
 #include "bench/plain/step.hpp"
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
+#include "kernels/tissue/tiled_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
+#include "kernels/transfer/metric_rows.hpp"
 #include "tests/support/reference_excitation.hpp"
 
 namespace myowave::bench {
 namespace {
 
-enum class Form { identity, conservative_loaded, expanded };
+enum class Form { identity, conservative, conservative_loaded, expanded };
 
 constexpr const char* name_of(Form form) {
-  return form == Form::identity ? "identity" : form == Form::expanded ? "expanded" : "conservative_loaded";
+  return form == Form::identity       ? "identity"
+         : form == Form::conservative ? "conservative"
+         : form == Form::expanded     ? "expanded"
+                                      : "conservative_loaded";
 }
 
 template <class Real>
@@ -58,6 +63,9 @@ template <Form form, class Real>
 auto make_diffusion(int n, int members) {
   if constexpr (form == Form::identity)
     return tissue::IdentityDiffusion<Real, MemorySpace>(square_grid(n));
+  else if constexpr (form == Form::conservative)
+    return transfer::DeformedDiffusion<Real, MemorySpace>{
+        square_grid(n), square_elements(n), cells_per_element, to_nodes(deformed_nodes(square_elements(n)))};
   else if constexpr (form == Form::expanded)
     return deformed<tissue::ExpandedDiffusion, tissue::ExpandedMetric, transfer::ExpandedTransfer, Real>(
         n, members);
@@ -102,6 +110,41 @@ class Step {
   decltype(make_diffusion<form, Real>(2, 1)) diffusion_;
   solver::Model<Real> model_;
   View V_, V_next_, r_, Ta_;
+};
+
+// The product's steps, several a launch.
+template <Form form, class Real>
+class TiledSteps {
+ public:
+  using View = EnsembleField<Real, MemorySpace>;
+
+  TiledSteps(int n, int members)
+      : diffusion_(make_diffusion<form, Real>(n, members)), model_(solver::make_model<Real>({}, {})) {
+    for (auto* state : {&old_, &next_})
+      *state = {View("myowave::bench::V", members, n, n), View("myowave::bench::r", members, n, n),
+                View("myowave::bench::Ta", members, n, n)};
+    fill(old_.V, [](int i, int j) { return static_cast<Real>(initial_V(i, j)); });
+    fill(old_.r, [](int i, int j) { return static_cast<Real>(initial_r(i, j)); });
+    fill(old_.Ta, [](int i, int j) { return static_cast<Real>(initial_Ta(i, j)); });
+  }
+
+  void operator()(int steps) {
+    tissue::tiled_steps(ExecutionSpace(), diffusion_, model_, dt, steps, old_, next_);
+  }
+
+  // Of the last member.
+  HostState state() const {
+    Kokkos::fence("myowave::bench::state");
+    const auto last = [](const View& view) {
+      return to_host(Kokkos::subview(view, static_cast<int>(view.extent(0)) - 1, Kokkos::ALL, Kokkos::ALL));
+    };
+    return {last(old_.V), last(old_.r), last(old_.Ta)};
+  }
+
+ private:
+  decltype(make_diffusion<form, Real>(2, 1)) diffusion_;
+  solver::Model<Real> model_;
+  tissue::ExcitationFields<View> old_, next_;
 };
 
 // The yardstick.
@@ -153,6 +196,7 @@ class PlainStep {
 };
 
 constexpr int checked_steps = 4;
+constexpr int checked_tiled_steps = 20;
 
 // The tests' reference is made to be read, not to be fast.
 constexpr int largest_reference_n = 251;
@@ -225,6 +269,27 @@ void time_step(benchmark::State& state, const Suite& suite, int n, int members) 
   if (!wrong.empty()) fail(state, wrong);
 }
 
+// The steps between two solves of the mechanics.
+constexpr int steps_a_launch = 80;
+
+template <Form form, class Real>
+void time_tiled(benchmark::State& state, const Suite& suite, int n, int members) {
+  TiledSteps<form, Real> steps(n, members);
+  const double nodes = static_cast<double>(n) * n * members * steps_a_launch;
+  const double seconds = measure(state, batch_of(nodes), [&] { steps(steps_a_launch); });
+  report_steps<Real>(state, suite, seconds, nodes, traffic_of<Real>(form));
+
+  // The same bits as single steps, where the metric comes from the same numbers.
+  constexpr bool from_nodes = form == Form::conservative;
+  constexpr double tolerance = !from_nodes ? 0 : sizeof(Real) == sizeof(double) ? 1e-12 : 2e-5;
+  TiledSteps<form, Real> tiled(n, members);
+  Step<from_nodes ? Form::conservative_loaded : form, Real> single(n, members);
+  tiled(checked_tiled_steps);
+  for (int step = 0; step < checked_tiled_steps; ++step) single();
+  const std::string wrong = difference(tiled.state(), single.state(), tolerance);
+  if (!wrong.empty()) fail(state, wrong);
+}
+
 template <Form form, class Real>
 void time_plain(benchmark::State& state, const Suite& suite, int n, plain::Threads threads) {
   PlainStep<form, Real> step(n, threads);
@@ -242,27 +307,34 @@ void register_rows(const Suite& suite) {
   const auto row = [](const char* kind, int n) {
     return fmt::format("{}/{}/{}/{}", kind, name_of(form), precision_name<Real>, n);
   };
+  constexpr bool has_yardstick = form == Form::identity || form == Form::conservative_loaded;
+  constexpr bool single = form != Form::conservative, tiled = form != Form::expanded;
   const auto sizes = form == Form::identity ? suite.sizes({121, 251, 512, 1024, 2048, 4096}, small_n)
                                             : suite.sizes({121, 251, 511, 1021, 2041, 4091}, small_n);
   for (const int n : sizes) {
-    if constexpr (form != Form::expanded) {
+    if constexpr (has_yardstick)
       for (const auto threads : {plain::Threads::all, plain::Threads::one})
         add_row(row(threads == plain::Threads::one ? "plain_serial" : "plain", n),
                 [=](benchmark::State& state) { time_plain<form, Real>(state, suite, n, threads); });
-    }
-    add_row(row("step", n), [=](benchmark::State& state) { time_step<form, Real>(state, suite, n, 1); });
+    if constexpr (single)
+      add_row(row("step", n), [=](benchmark::State& state) { time_step<form, Real>(state, suite, n, 1); });
+    if constexpr (tiled)
+      add_row(row("tiled", n), [=](benchmark::State& state) { time_tiled<form, Real>(state, suite, n, 1); });
   }
-  if constexpr (form != Form::expanded) {
+  if constexpr (has_yardstick)
     for (const int n : suite.sizes({121, 251}, small_n))
-      for (const int members : suite.sizes({1, 8, 64}, 8))
+      for (const int members : suite.sizes({1, 8, 64}, 8)) {
         add_row(fmt::format("{}/members:{}", row("step", n), members),
                 [=](benchmark::State& state) { time_step<form, Real>(state, suite, n, members); });
-  }
+        add_row(fmt::format("{}/members:{}", row("tiled", n), members),
+                [=](benchmark::State& state) { time_tiled<form, Real>(state, suite, n, members); });
+      }
 }
 
 template <class Real>
 void register_forms(const Suite& suite) {
   register_rows<Form::identity, Real>(suite);
+  register_rows<Form::conservative, Real>(suite);
   register_rows<Form::conservative_loaded, Real>(suite);
   register_rows<Form::expanded, Real>(suite);
 }

@@ -83,12 +83,25 @@ inline Node<Real> updated(const Constants<Real>& c, Real V, Real r, Real Ta, Rea
           Ta + c.dt * (V < c.threshold ? c.eps_below : c.eps_above) * (c.k_Ta * V - Ta)};
 }
 
-// body(west, j, east) along a row, mirrored at its ends.
-template <class Body>
-inline void along_row(int n, const Body& body) {
+// A step has more streams, and more arithmetic between two lines of one, than the processor's own
+// prefetcher keeps ahead of: without these hints the plain step reaches 60 % of what the triad moves.
+template <class Real, class... Streams>
+inline void prefetch(int begin, int end, const Streams*... streams) {
+  constexpr int line = 64 / sizeof(Real), distance = 2048 / sizeof(Real);  // columns
+  for (int j = begin; j < end; j += line) (__builtin_prefetch(streams + j + distance), ...);
+}
+
+// body(west, j, east) along a row, mirrored at its ends; `streams` are the arrays that it goes along.
+template <class Real, class Body, class... Streams>
+inline void along_row(int n, const Body& body, const Streams*... streams) {
+  constexpr int block = 512 / sizeof(Real);  // columns between two rounds of hints
   body(1, 0, 1);
+  for (int begin = 1; begin < n - 1; begin += block) {
+    const int end = std::min(begin + block, n - 1);
+    prefetch<Real>(begin, end, streams...);
 #pragma omp simd
-  for (int j = 1; j < n - 1; ++j) body(j - 1, j, j + 1);
+    for (int j = begin; j < end; ++j) body(j - 1, j, j + 1);
+  }
   body(n - 2, n - 1, n - 2);
 }
 
@@ -102,13 +115,14 @@ void identity_row(const Constants<Real>& constants, int n, const Real* __restric
                   Real* __restrict Ta_next) {
   const Constants<Real> c = constants;
   const Real inverse_dx2 = 1 / (c.dx * c.dx);
-  along_row(n, [=](int west, int j, int east) {
+  const auto update = [=](int west, int j, int east) {
     const Real sum = (V[west] + V[east]) + (below[j] + above[j]);
     const auto next = updated(c, V[j], r[j], Ta[j], inverse_dx2 * (sum - Real(4) * V[j]));
     V_next[j] = next.V;
     r_next[j] = next.r;
     Ta_next[j] = next.Ta;
-  });
+  };
+  along_row<Real>(n, update, above, r, Ta, V_next, r_next, Ta_next);
 }
 
 // Weights are shifted by one: [j + 1] is that of column j.
@@ -122,7 +136,7 @@ void conservative_row(const Constants<Real>& constants, int n, const Real* __res
                       const Real* __restrict Ta, Real* __restrict V_next, Real* __restrict r_next,
                       Real* __restrict Ta_next) {
   const Constants<Real> c = constants;
-  along_row(n, [=](int west, int j, int east) {
+  const auto update = [=](int west, int j, int east) {
     const Real here = V[j];
     const Real straight = east_weight[j + 1] * (V[east] - here) + east_weight[j] * (V[west] - here) +
                           north[j + 1] * (above[j] - here) + north_below[j + 1] * (below[j] - here);
@@ -132,7 +146,9 @@ void conservative_row(const Constants<Real>& constants, int n, const Real* __res
     V_next[j] = next.V;
     r_next[j] = next.r;
     Ta_next[j] = next.Ta;
-  });
+  };
+  along_row<Real>(n, update, above, r, Ta, east_weight, north, rising, falling, inverse_mass, V_next, r_next,
+                  Ta_next);
 }
 
 // A thread's share of the rows, in one call: one thread and many run the same instructions.

@@ -10,6 +10,7 @@ namespace myowave::cell {
 
 template <class Real>
 struct ActiveTension {
+  static constexpr bool integrated = true;
   Real k_Ta = Real(47.9);      // kPa, Table 1
   Real eps_below = Real(1);    // 1/t.u.
   Real eps_above = Real(0.1);  // 1/t.u.
@@ -19,6 +20,11 @@ struct ActiveTension {
   KOKKOS_FORCEINLINE_FUNCTION Real rate(Real V, Real Ta) const {
     return (V < threshold ? eps_below : eps_above) * (k_Ta * V - Ta);
   }
+};
+
+// Where nothing asks for Ta.
+struct NoTension {
+  static constexpr bool integrated = false;
 };
 
 }  // namespace myowave::cell

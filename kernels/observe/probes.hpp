@@ -27,4 +27,24 @@ void record_probes(const ExecutionSpace& space, const View& field, const NodeLis
   }
 }
 
+// The same inside a launch of several steps (kernels/tissue/tiled_step.hpp).
+//
+//   view     shape              access
+//   nodes    (probes, 2)        read, row and column
+//   record   (steps, probes)    write
+template <class Real, class MemorySpace>
+struct ProbeRecorder {
+  Kokkos::View<const int* [2], Kokkos::LayoutRight, MemorySpace> nodes;
+  Kokkos::View<Real**, Kokkos::LayoutRight, MemorySpace> record;
+
+  template <class Columns>
+  KOKKOS_FUNCTION void operator()(const Columns& columns, int m, int i, int step, int begin, int end,
+                                  const Real* V) const {
+    if (m != 0) return;
+    for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p)
+      if (nodes(p, 0) == i && nodes(p, 1) >= begin && nodes(p, 1) < end)
+        columns.once([&]() { record(step, p) = V[nodes(p, 1) - begin]; });
+  }
+};
+
 }  // namespace myowave::observe

@@ -1,14 +1,32 @@
 // The diffusion term of Eq 22a, (1/sqrt C) (sqrt C C^-1_ML V_,L)_,M, in the three forms that a scene
 // can ask for. Each form has
-//   row(V, m, i)   what the SIMD loop of monodomain_step needs of row i: r(j - 1, j, j + 1)
-//   at(V, m, i, j) the same at any node, boundaries included
-//   row_is_regular(i) whether row(i) holds for all columns but the first and the last
-// and sets them from a View V of shape (members, rows, columns).
+//   row(rows, m, i, origin)  of row i, r(j - 1, j, j + 1), with columns counted from `origin`: what a
+//                            SIMD loop needs; r.prefetch(j)
+//   at(V, m, i, j)           the same at any node, boundaries included; V of shape (members, rows, columns)
+//   mirrored_edges           whether row() holds at the edges too, on mirrored neighbours
+//   metric_rows(...)         row() for a team that goes up the rows; a form that does not load its metric
+//                            prepares it there, in scratch_rows(slots) rows of scratch memory
 #pragma once
 
+#include "kernels/base/row_loop.hpp"
 #include "kernels/tissue/metric.hpp"
 
 namespace myowave::tissue {
+
+// V in three neighbouring rows, all three from the same column on.
+template <class Real>
+struct StencilRows {
+  const Real* KOKKOS_RESTRICT below;
+  const Real* KOKKOS_RESTRICT here;
+  const Real* KOKKOS_RESTRICT above;
+};
+
+// Row i of a field of the sheet with its neighbours, mirrored at the first and the last row.
+template <class View>
+KOKKOS_FORCEINLINE_FUNCTION auto rows_of(const View& V, const Grid& grid, int m, int i, int origin = 0) {
+  return StencilRows<typename View::non_const_value_type>{
+      &V(m, mirrored(i - 1, grid.rows), origin), &V(m, i, origin), &V(m, mirrored(i + 1, grid.rows), origin)};
+}
 
 // F = I: the 5-point Laplacian with mirrored edges.
 template <class Real, class MemorySpace>
@@ -17,6 +35,7 @@ struct IdentityDiffusion {
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name = "identity";
+  static constexpr bool mirrored_edges = true;
 
   Grid grid;
   Real inverse_dx2 = 0;
@@ -25,25 +44,63 @@ struct IdentityDiffusion {
   explicit IdentityDiffusion(const Grid& g) : grid(g), inverse_dx2(Real(1 / (g.dx * g.dx))) {}
 
   struct Row {
-    const Real* KOKKOS_RESTRICT below;
-    const Real* KOKKOS_RESTRICT here;
-    const Real* KOKKOS_RESTRICT above;
+    StencilRows<Real> V;
     Real inverse_dx2;
     KOKKOS_FORCEINLINE_FUNCTION Real operator()(int west, int j, int east) const {
-      return inverse_dx2 * ((here[west] + here[east]) + (below[j] + above[j]) - Real(4) * here[j]);
+      return inverse_dx2 * ((V.here[west] + V.here[east]) + (V.below[j] + V.above[j]) - Real(4) * V.here[j]);
     }
+    KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const { prefetch_to_read(V.above + j); }
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION bool row_is_regular(int) const { return true; }
+  struct RowsOfTile {
+    Real inverse_dx2;
+    KOKKOS_FORCEINLINE_FUNCTION void begin(int) const {}
+    KOKKOS_FORCEINLINE_FUNCTION void prepare(int) const {}
+    KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int) const { return {V, inverse_dx2}; }
+  };
+  template <int pitch>
+  static constexpr int scratch_rows(int) {
+    return 0;
+  }
+  template <int pitch, class Columns>
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile metric_rows(const Columns&, int, int, int, Real*, int) const {
+    return {inverse_dx2};
+  }
 
-  KOKKOS_FORCEINLINE_FUNCTION Row row(const ConstView& V, int m, int i) const {
-    return {&V(m, mirrored(i - 1, grid.rows), 0), &V(m, i, 0), &V(m, mirrored(i + 1, grid.rows), 0),
-            inverse_dx2};
+  KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int, int, int) const {
+    return {V, inverse_dx2};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Real at(const ConstView& V, int m, int i, int j) const {
-    return row(V, m, i)(mirrored(j - 1, grid.columns), j, mirrored(j + 1, grid.columns));
+    return row(rows_of(V, grid, m, i), m, i, 0)(mirrored(j - 1, grid.columns), j,
+                                                mirrored(j + 1, grid.columns));
   }
+};
+
+// Weights of the edge network in a few neighbouring rows of a tile, in scratch rows of `pitch` entries. The
+// rows lie at constant distances, so that a loop over columns needs two addresses for all of them.
+template <class Real, int pitch>
+struct WeightRows {
+  Real* begin;  // the tile's first column, aligned
+  int slots;    // a power of two; row i lies at i modulo slots
+
+  static constexpr int rows(int slots) { return 4 * slots; }
+  KOKKOS_FORCEINLINE_FUNCTION Real* east(int i) const { return begin + (i & (slots - 1)) * 4 * pitch; }
+  KOKKOS_FORCEINLINE_FUNCTION Real* north(int i) const { return east(i) + pitch; }
+  KOKKOS_FORCEINLINE_FUNCTION Real* diagonal(int i) const { return east(i) + 2 * pitch; }
+  KOKKOS_FORCEINLINE_FUNCTION Real* inverse_mass(int i) const { return east(i) + 3 * pitch; }
+
+  struct OfRow {
+    const Real* here;
+    const Real* row_below;
+    KOKKOS_FORCEINLINE_FUNCTION Real east(int j) const { return here[j]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real north(int j) const { return here[j + pitch]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return row_below[j + pitch]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return here[j + 2 * pitch]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return row_below[j + 2 * pitch]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return here[j + 3 * pitch]; }
+  };
+  KOKKOS_FORCEINLINE_FUNCTION OfRow of_row(int i) const { return {east(i), east(i - 1)}; }
 };
 
 // `conservative`: the gradient of the cell energies
@@ -57,6 +114,7 @@ struct ConservativeDiffusion {
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name = "conservative";
+  static constexpr bool mirrored_edges = true;
 
   Grid grid;
   ConservativeMetric<Real, MemorySpace> metric;
@@ -65,39 +123,97 @@ struct ConservativeDiffusion {
   ConservativeDiffusion(const Grid& g, const ConservativeMetric<Real, MemorySpace>& coefficients)
       : grid(g), metric(coefficients) {}
 
-  // Weights are shifted by one (see ConservativeMetric): weight[j] is that of column j - 1.
-  struct Row {
-    const Real* KOKKOS_RESTRICT below;
-    const Real* KOKKOS_RESTRICT here;
-    const Real* KOKKOS_RESTRICT above;
-    const Real* KOKKOS_RESTRICT w_east;
-    const Real* KOKKOS_RESTRICT w_north;
-    const Real* KOKKOS_RESTRICT w_north_below;
-    const Real* KOKKOS_RESTRICT w_diagonal;
-    const Real* KOKKOS_RESTRICT w_diagonal_below;
-    const Real* KOKKOS_RESTRICT inverse_mass;
+  // The diffusion along a row from the weights of its edges.
+  template <class Weights>
+  struct RowOf {
+    StencilRows<Real> rows;
+    Weights w;
     KOKKOS_FORCEINLINE_FUNCTION Real operator()(int west, int j, int east) const {
+      const auto& [below, here, above] = rows;
       const Real V = here[j];
-      const Real straight = w_east[j + 1] * (here[east] - V) + w_east[j] * (here[west] - V) +
-                            w_north[j + 1] * (above[j] - V) + w_north_below[j + 1] * (below[j] - V);
-      const Real oblique = w_diagonal[j + 1] * (above[east] - V) + w_diagonal_below[j] * (below[west] - V) -
-                           w_diagonal[j] * (above[west] - V) - w_diagonal_below[j + 1] * (below[east] - V);
-      return inverse_mass[j + 1] * (straight + oblique);
+      const Real straight = w.east(j) * (here[east] - V) + w.east(j - 1) * (here[west] - V) +
+                            w.north(j) * (above[j] - V) + w.north_below(j) * (below[j] - V);
+      const Real oblique = w.diagonal(j) * (above[east] - V) + w.diagonal_below(j - 1) * (below[west] - V) -
+                           w.diagonal(j - 1) * (above[west] - V) - w.diagonal_below(j) * (below[east] - V);
+      return w.inverse_mass(j) * (straight + oblique);
+    }
+    KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
+      prefetch_to_read(rows.above + j);
+      w.prefetch(j);
     }
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION bool row_is_regular(int) const { return true; }
+  // Of a row in memory, shifted by one (see ConservativeMetric).
+  struct Loaded {
+    const Real* KOKKOS_RESTRICT east_;
+    const Real* KOKKOS_RESTRICT north_;
+    const Real* KOKKOS_RESTRICT north_below_;
+    const Real* KOKKOS_RESTRICT diagonal_;
+    const Real* KOKKOS_RESTRICT diagonal_below_;
+    const Real* KOKKOS_RESTRICT inverse_mass_;
+    KOKKOS_FORCEINLINE_FUNCTION Real east(int j) const { return east_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real north(int j) const { return north_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return north_below_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return diagonal_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return diagonal_below_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return inverse_mass_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
+      prefetch_to_read(east_ + j);
+      prefetch_to_read(north_ + j);
+      prefetch_to_read(diagonal_ + j);
+      prefetch_to_read(inverse_mass_ + j);
+    }
+  };
 
-  KOKKOS_FORCEINLINE_FUNCTION Row row(const ConstView& V, int m, int i) const {
-    return {&V(m, mirrored(i - 1, grid.rows), 0), &V(m, i, 0),
-            &V(m, mirrored(i + 1, grid.rows), 0), &metric.east(m, i + 1, 0),
-            &metric.north(m, i + 1, 0),           &metric.north(m, i, 0),
-            &metric.diagonal(m, i + 1, 0),        &metric.diagonal(m, i, 0),
-            &metric.inverse_mass(m, i + 1, 0)};
+  template <int pitch, class Columns>
+  struct RowsOfTile {
+    using Weights = WeightRows<Real, pitch>;
+    ConservativeMetric<Real, MemorySpace> metric;
+    Columns columns;
+    int member, origin, inside;
+    Weights weights;
+
+    KOKKOS_FORCEINLINE_FUNCTION void begin(int i) const { prepare(i - 1); }
+    KOKKOS_FORCEINLINE_FUNCTION void prepare(int i) const {
+      copy(metric.east, weights.east(i), i);
+      copy(metric.north, weights.north(i), i);
+      copy(metric.diagonal, weights.diagonal(i), i);
+      copy(metric.inverse_mass, weights.inverse_mass(i), i);
+    }
+    KOKKOS_FORCEINLINE_FUNCTION auto row(const StencilRows<Real>& V, int i) const {
+      return RowOf<typename Weights::OfRow>{V, weights.of_row(i)};
+    }
+
+   private:
+    KOKKOS_FORCEINLINE_FUNCTION void copy(const typename ConservativeMetric<Real, MemorySpace>::View& view,
+                                          Real* to, int i) const {
+      const Real* const from = &view(member, i + 1, origin + 1);
+      const Real* const next = from + view.stride(1);
+      columns.template each<Real>(
+          0, inside, [=](int j) { to[j] = from[j]; }, [=](int j) { prefetch_to_read(next + j); });
+    }
+  };
+  template <int pitch>
+  static constexpr int scratch_rows(int slots) {
+    return WeightRows<Real, pitch>::rows(slots);
+  }
+  template <int pitch, class Columns>
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<pitch, Columns> metric_rows(const Columns& columns, int m,
+                                                                     int origin, int width, Real* scratch,
+                                                                     int slots) const {
+    return {metric, columns, m, origin, Kokkos::min(width, grid.columns - origin), {scratch, slots}};
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION RowOf<Loaded> row(const StencilRows<Real>& V, int m, int i, int origin) const {
+    return {V,
+            {&metric.east(m, i + 1, origin), &metric.north(m, i + 1, origin), &metric.north(m, i, origin),
+             &metric.diagonal(m, i + 1, origin), &metric.diagonal(m, i, origin),
+             &metric.inverse_mass(m, i + 1, origin)}};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Real at(const ConstView& V, int m, int i, int j) const {
-    return row(V, m, i)(mirrored(j - 1, grid.columns), j, mirrored(j + 1, grid.columns));
+    return row(rows_of(V, grid, m, i), m, i, 0)(mirrored(j - 1, grid.columns), j,
+                                                mirrored(j + 1, grid.columns));
   }
 };
 
@@ -110,6 +226,7 @@ struct ExpandedDiffusion {
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name = "expanded";
+  static constexpr bool mirrored_edges = false;
 
   Grid grid;
   ExpandedMetric<Real, MemorySpace> metric;
@@ -124,9 +241,7 @@ struct ExpandedDiffusion {
         inverse_dx2(Real(1 / (g.dx * g.dx))) {}
 
   struct Row {
-    const Real* KOKKOS_RESTRICT below;
-    const Real* KOKKOS_RESTRICT here;
-    const Real* KOKKOS_RESTRICT above;
+    StencilRows<Real> rows;
     const Real* KOKKOS_RESTRICT g11;
     const Real* KOKKOS_RESTRICT g12;
     const Real* KOKKOS_RESTRICT g22;
@@ -135,6 +250,7 @@ struct ExpandedDiffusion {
     Real half_inverse_dx;
     Real inverse_dx2;
     KOKKOS_FORCEINLINE_FUNCTION Real operator()(int west, int j, int east) const {
+      const auto& [below, here, above] = rows;
       const Real V_11 = inverse_dx2 * (here[east] - Real(2) * here[j] + here[west]);
       const Real V_22 = inverse_dx2 * (above[j] - Real(2) * here[j] + below[j]);
       const Real V_12 = Real(0.25) * inverse_dx2 * (above[east] - above[west] - below[east] + below[west]);
@@ -142,20 +258,31 @@ struct ExpandedDiffusion {
       const Real V_2 = half_inverse_dx * (above[j] - below[j]);
       return g11[j] * V_11 + Real(2) * g12[j] * V_12 + g22[j] * V_22 - b1[j] * V_1 - b2[j] * V_2;
     }
+    KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
+      prefetch_to_read(rows.above + j);
+      prefetch_to_read(g11 + j);
+      prefetch_to_read(g12 + j);
+      prefetch_to_read(g22 + j);
+      prefetch_to_read(b1 + j);
+      prefetch_to_read(b2 + j);
+    }
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION bool row_is_regular(int i) const { return i > 0 && i < grid.rows - 1; }
-
-  KOKKOS_FORCEINLINE_FUNCTION Row row(const ConstView& V, int m, int i) const {
-    return {&V(m, i - 1, 0),      &V(m, i, 0),          &V(m, i + 1, 0),     &metric.g11(m, i, 0),
-            &metric.g12(m, i, 0), &metric.g22(m, i, 0), &metric.b1(m, i, 0), &metric.b2(m, i, 0),
-            half_inverse_dx,      inverse_dx2};
+  KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int m, int i, int origin) const {
+    return {V,
+            &metric.g11(m, i, origin),
+            &metric.g12(m, i, origin),
+            &metric.g22(m, i, origin),
+            &metric.b1(m, i, origin),
+            &metric.b2(m, i, origin),
+            half_inverse_dx,
+            inverse_dx2};
   }
 
   KOKKOS_FUNCTION Real at(const ConstView& V, int m, int i, int j) const {
     const bool side = j == 0 || j == grid.columns - 1;
     const bool end = i == 0 || i == grid.rows - 1;
-    if (!side && !end) return row(V, m, i)(j - 1, j, j + 1);
+    if (!side && !end) return row(rows_of(V, grid, m, i), m, i, 0)(j - 1, j, j + 1);
 
     const Real V_1 = slope_1(V, m, i, j), V_2 = slope_2(V, m, i, j);
     const Real V_11 = side ? second_at_edge(V(m, i, j), V(m, i, j == 0 ? 1 : j - 1), j == 0 ? V_1 : -V_1)

@@ -1,6 +1,5 @@
-// One explicit Euler step of the monodomain equations with active tension (Eqs 22a-c):
-//   V += dt (D diffusion(V) + f(V, r)) / C_m,   r += dt r_t,   Ta += dt Ta_t,
-// all three from the old state. r and Ta depend on their own node alone and are updated in place.
+// One explicit step of the whole sheet (row_update.hpp); r and Ta depend on their own node alone and are
+// updated in place.
 //
 //   view    shape                      unit           access
 //   V       (members, rows, columns)   -              read
@@ -9,22 +8,10 @@
 //   Ta      (members, rows, columns)   kPa            read and write
 #pragma once
 
-#include "kernels/base/row_loop.hpp"
-#include "kernels/tissue/diffusion.hpp"
+#include "kernels/tissue/row_update.hpp"
 #include "kernels/tissue/stimulus.hpp"
 
 namespace myowave::tissue {
-
-// Any cell and tension model with the functions of AlievPanfilov and ActiveTension will do: the
-// model is a template parameter, so that tissue/ does not depend on one.
-template <class Cell, class Tension>
-struct MonodomainModel {
-  using Real = decltype(Cell{}.k);
-  Cell cell;
-  Tension tension;
-  Real D = 1;            // conductivity, length^2/t.u.
-  Real inverse_C_m = 1;  // 1 / membrane capacitance
-};
 
 template <class ExecutionSpace, class Diffusion, class Model>
 struct MonodomainStep {
@@ -48,39 +35,27 @@ struct MonodomainStep {
     const int m = team.league_rank() / teams_per_member;
     const int first = (team.league_rank() % teams_per_member) * rows_per_team;
     const int last = Kokkos::min(first + rows_per_team, diffusion.grid.rows);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first, last), [&](int i) { update_row(team, m, i); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first, last), [&](int i) { advance_row(team, m, i); });
   }
 
  private:
-  KOKKOS_FORCEINLINE_FUNCTION void update_row(const TeamMember& team, int m, int i) const {
+  KOKKOS_FORCEINLINE_FUNCTION void advance_row(const TeamMember& team, int m, int i) const {
     const int columns = diffusion.grid.columns;
-    const auto update = Update{model, dt, &V(m, i, 0), &V_next(m, i, 0), &r(m, i, 0), &Ta(m, i, 0)};
-    if (diffusion.row_is_regular(i)) {
-      const auto row = diffusion.row(V, m, i);
-      for_columns(team, 1, columns - 1, [=](int j) { update(j, row(j - 1, j, j + 1)); });
-      Kokkos::single(Kokkos::PerThread(team), [&]() {
-        update(0, diffusion.at(V, m, i, 0));
-        update(columns - 1, diffusion.at(V, m, i, columns - 1));
-      });
+    const ThreadColumns<TeamMember> lanes{team};
+    Real* const tension = Model::has_tension ? &Ta(m, i, 0) : nullptr;
+    const NodeUpdate<Model> update{model,       dt,     &V(m, i, 0), &r(m, i, 0), tension, &V_next(m, i, 0),
+                                   &r(m, i, 0), tension};
+    const auto at = [&](int j) { update(j, diffusion.at(V, m, i, j)); };
+    const auto rows = rows_of(V, diffusion.grid, m, i);
+    if constexpr (Diffusion::mirrored_edges) {
+      update_row<true>(lanes, {0, columns, 0, columns}, diffusion.row(rows, m, i, 0), update);
+    } else if (i > 0 && i < diffusion.grid.rows - 1) {
+      update_row<true>(lanes, {1, columns - 1, 0, columns}, diffusion.row(rows, m, i, 0), update);
+      lanes.once([&]() { at(0), at(columns - 1); });
     } else {
-      for_columns(team, 0, columns, [&](int j) { update(j, diffusion.at(V, m, i, j)); });
+      lanes.each(0, columns, at);
     }
   }
-
-  struct Update {
-    Model model;
-    Real dt;
-    const Real* KOKKOS_RESTRICT V;
-    Real* KOKKOS_RESTRICT V_next;
-    Real* KOKKOS_RESTRICT r;
-    Real* KOKKOS_RESTRICT Ta;
-    KOKKOS_FORCEINLINE_FUNCTION void operator()(int j, Real diffused) const {
-      const Real V_old = V[j], r_old = r[j], Ta_old = Ta[j];
-      V_next[j] = V_old + dt * model.inverse_C_m * (model.D * diffused + model.cell.excitation(V_old, r_old));
-      r[j] = r_old + dt * model.cell.recovery(V_old, r_old);
-      Ta[j] = Ta_old + dt * model.tension.rate(V_old, Ta_old);
-    }
-  };
 };
 
 // Launches one step; no fence, no allocation. Stimuli are added to V_next afterwards (add_stimulus).

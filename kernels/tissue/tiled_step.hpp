@@ -1,0 +1,300 @@
+// Several explicit steps in one launch, bitwise equal to single ones: while the metric is held, a tile of
+// the sheet can be carried on by `depth` steps without going back to memory.
+//
+// A team owns the nodes of a tile and goes up its rows like a wave: at front f it loads row f and takes
+// step `level` = 1 ... depth on row f - lag level, so that the few rows on the way stay in the team's
+// scratch memory and every row of the sheet is read once and written once. Neighbours that other tiles own
+// are computed again: a tile begins `depth` rows and columns outside, and each step spoils one of them.
+// Old and new state must be different arrays, for other tiles read the old one; at depth 1, r and Ta may be
+// updated in place.
+//
+//   view             shape                      unit   access
+//   V, r             (members, rows, columns)   -      read
+//   Ta               (members, rows, columns)   kPa    read
+//   V_next, r_next   (members, rows, columns)   -      write
+//   Ta_next          (members, rows, columns)   kPa    write
+#pragma once
+
+#include "kernels/tissue/row_update.hpp"
+
+namespace myowave::tissue {
+
+// V, r and Ta of all members; without tension Ta is empty.
+template <class View>
+struct ExcitationFields {
+  View V, r, Ta;
+};
+
+// Nodes that a team owns, and the steps of one launch.
+struct TilePlan {
+  int rows = 1, columns = 1, depth = 1;
+};
+
+constexpr int tiles_of(int nodes, int owned) { return (nodes + owned - 1) / owned; }
+
+// Looks at V of the owned nodes before each step; nothing by default.
+struct NoRecorder {
+  template <class Columns, class Real>
+  KOKKOS_FUNCTION void operator()(const Columns&, int /*m*/, int /*i*/, int /*step*/, int /*begin*/,
+                                  int /*end*/, const Real* /*V from column begin on*/) const {}
+};
+
+template <class ExecutionSpace, class Diffusion, class Model, class Recorder>
+struct TiledStep {
+  using Real = typename Diffusion::Scalar;
+  using MemorySpace = typename ExecutionSpace::memory_space;
+  using View = EnsembleField<Real, MemorySpace>;
+  using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
+  using TeamMember = typename Policy::member_type;
+  using Columns = TeamColumns<TeamMember>;
+
+  static constexpr bool on_host = Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
+  // On a device all levels of a front run between two barriers: a level must not read what the one below
+  // writes at the same front. One thread alone has no such care, and fewer rows on the way.
+  static constexpr int lag = on_host ? 1 : 2;
+  // Rows i - 1 ... i + lag of V between two levels. Slots are powers of two, so that a row finds its own
+  // without a division.
+  static constexpr int V_slots = 4;
+  static_assert(lag + 2 <= V_slots);
+  // Scratch of a device is the fast memory of a multiprocessor; on a host it is what stays in a cache.
+  static constexpr int scratch_level = on_host ? 1 : 0;
+  // Entries of a line of the cache: rows on the way begin at one, which makes a step on a host 1.6 times as
+  // fast as rows that begin anywhere.
+  static constexpr int line = detail::line_bytes / static_cast<int>(sizeof(Real));
+
+  Diffusion diffusion;
+  Model model;
+  Real dt;
+  TilePlan plan;
+  int row_tiles, column_tiles;
+  ExcitationFields<View> old_state, new_state;
+  int first_step;
+  Recorder record;
+
+  static constexpr int round_up(int columns) { return (columns + line - 1) / line * line; }
+  KOKKOS_FUNCTION static constexpr int power_of_two(int n) {
+    int power = 1;
+    while (power < n) power *= 2;
+    return power;
+  }
+  // Rows of r, and of Ta, on the way.
+  KOKKOS_FUNCTION static constexpr int state_slots(int depth) { return power_of_two(lag * (depth - 1) + 1); }
+  KOKKOS_FUNCTION static constexpr int metric_slots(int depth) { return power_of_two(lag * (depth - 1) + 2); }
+  // Entries of a scratch row: a line for the neighbour on the left, the columns of the widest tile and those
+  // around it, and one for the neighbour on the right; an odd number of lines, so that rows do not fall on
+  // one another in a cache. Constant, so that rows at a fixed distance need no address of their own.
+  static constexpr int widest_tile = 2048 / static_cast<int>(sizeof(Real)), deepest = 15;
+  static constexpr int pitch = line * ((3 + (widest_tile + 2 * (deepest + line - 1)) / line) / 2 * 2 + 1);
+  static constexpr int state_rows = Model::has_tension ? 2 : 1;
+  static constexpr int scratch_rows(int depth) {
+    return V_slots * depth + state_rows * state_slots(depth) +
+           Diffusion::template scratch_rows<pitch>(metric_slots(depth));
+  }
+  static constexpr std::size_t scratch_bytes(int depth) {
+    return static_cast<std::size_t>(scratch_rows(depth)) * pitch * sizeof(Real) + detail::line_bytes;
+  }
+
+  // Eight warps go along a row of a device's tile, one column a lane; on a host a team is one thread.
+  static constexpr int warps = on_host ? 1 : 8, lanes = on_host ? 1 : 32;
+
+  // The depth up to which steps gain: on a host as long as the rows on the way stay in half a MiB of cache,
+  // on a device what two teams of a multiprocessor can have.
+  static int largest_depth() {
+    const std::size_t room = on_host ? 512 * 1024 : Policy::scratch_size_max(scratch_level) / 2;
+    int depth = deepest;
+    while (depth > 1 && scratch_bytes(depth) > room) --depth;
+    return depth;
+  }
+
+  // Tiles of at most the widest, as many rows to each as keep all teams equally busy: a tile costs its rows
+  // and about depth - 1 more that belong to others.
+  static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
+    const int teams = Kokkos::max(1, space.concurrency() / (warps * lanes));
+    const int column_tiles = tiles_of(grid.columns, widest_tile);
+    const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
+    TilePlan best{grid.rows, columns, depth};
+    double least = 1e300;
+    for (int row_tiles = 1; row_tiles == 1 || grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
+      const int rows = tiles_of(grid.rows, row_tiles);
+      const double rounds = tiles_of(members * column_tiles * row_tiles, teams);
+      const double cost = rounds * (rows + (row_tiles > 1 ? depth - 1 : 0));
+      if (cost < least) least = cost, best.rows = rows;
+    }
+    return best;
+  }
+
+  // Owned nodes, half open, and the columns that are computed.
+  struct Tile {
+    int member, first_row, last_row, first_column, last_column;
+    int origin;  // a multiple of `line`
+    int width;   // a multiple of `line`; those outside the sheet are computed too, on zeros
+    int inside;  // those of them inside the sheet
+  };
+
+  // What a team has on the way: V after level 0 (loaded) ... depth - 1, r and Ta, by row modulo the slots;
+  // every pointer is that of column `origin`.
+  struct Rings {
+    Real *V_begin, *r_begin, *metric_begin;
+    int slots;
+    KOKKOS_FORCEINLINE_FUNCTION Real* V(int level, int i) const {
+      return V_begin + (V_slots * level + (i & (V_slots - 1))) * pitch;
+    }
+    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const {
+      return r_begin + (i & (slots - 1)) * state_rows * pitch;
+    }
+    KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + pitch; }
+  };
+
+  KOKKOS_FUNCTION void operator()(const TeamMember& team) const {
+    const Tile tile = tile_of(team.league_rank());
+    const int depth = plan.depth, rows = diffusion.grid.rows;
+    const Columns columns{team};
+    const Rings rings = make_rings(team, tile);
+    const auto metric = diffusion.template metric_rows<pitch>(columns, tile.member, tile.origin, tile.width,
+                                                              rings.metric_begin, metric_slots(depth));
+
+    const int first = Kokkos::max(0, tile.first_row - depth);
+    const int top = Kokkos::min(rows, tile.last_row + depth);
+    metric.begin(Kokkos::max(0, tile.first_row - depth + 1));
+    for (int front = first; front < tile.last_row + lag * depth; ++front) {
+      if (front < top) load(columns, tile, rings, front);
+      for (int level = 1; level <= depth; ++level) {
+        const int i = front - lag * level, halo = depth - level;
+        if (i < Kokkos::max(0, tile.first_row - halo) || i >= Kokkos::min(rows, tile.last_row + halo))
+          continue;
+        if (level == 1) metric.prepare(i);
+        advance(columns, tile, rings, metric, level, i);
+      }
+      team.team_barrier();
+    }
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION Tile tile_of(int rank) const {
+    const int tiles = row_tiles * column_tiles, tile = rank % tiles, columns = diffusion.grid.columns;
+    const int first_row = tile / column_tiles * plan.rows, first_column = tile % column_tiles * plan.columns;
+    const int last_row = Kokkos::min(first_row + plan.rows, diffusion.grid.rows);
+    const int last_column = Kokkos::min(first_column + plan.columns, columns);
+    const int origin = Kokkos::max(0, first_column - plan.depth) / line * line;
+    const int width = (Kokkos::min(last_column + plan.depth, columns) - origin + line - 1) / line * line;
+    return {rank / tiles, first_row, last_row, first_column,
+            last_column,  origin,    width,    Kokkos::min(width, columns - origin)};
+  }
+
+  // Entries beside the computed columns, and those outside the sheet, are zero: what comes of them is
+  // finite and never used.
+  KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team, const Tile& tile) const {
+    const int depth = plan.depth, all = scratch_rows(depth);
+    auto* const scratch = static_cast<Real*>(
+        team.team_scratch(scratch_level)
+            .get_shmem_aligned(scratch_bytes(depth) - detail::line_bytes, detail::line_bytes));
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, all), [&](int n) {
+      Real* const row = scratch + n * pitch;
+      for (int j = 0; j < line; ++j) row[j] = 0;
+      for (int j = line + tile.inside; j < line + tile.width + 1; ++j) row[j] = 0;
+    });
+    team.team_barrier();
+    Real* const V = scratch + line;
+    Real* const r = V + V_slots * depth * pitch;
+    return {V, r, r + state_rows * state_slots(depth) * pitch, state_slots(depth)};
+  }
+
+  // The neighbours outside the sheet, of a row on the way: V(-1) = V(1), V(n) = V(n - 2).
+  KOKKOS_FORCEINLINE_FUNCTION void mirror_ends(const Columns& columns, const Tile& tile, Real* V) const {
+    const int right = diffusion.grid.columns - tile.origin;
+    if (tile.origin > 0 && right > tile.width) return;
+    columns.wait();
+    columns.once([=]() {
+      if (tile.origin == 0) V[-1] = V[1];
+      if (right <= tile.width) V[right] = V[right - 2];
+    });
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void load(const Columns& columns, const Tile& tile, const Rings& rings,
+                                        int i) const {
+    Real* const V = rings.V(0, i);
+    const Real* const from = &old_state.V(tile.member, i, tile.origin);
+    const Real* const next = from + diffusion.grid.columns;
+    columns.template each<Real>(
+        0, tile.inside, [=](int j) { V[j] = from[j]; }, [=](int j) { prefetch_to_read(next + j); });
+    mirror_ends(columns, tile, V);
+  }
+
+  template <class Metric>
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Rings& rings,
+                                           const Metric& metric, int level, int i) const {
+    const int m = tile.member, origin = tile.origin, rows = diffusion.grid.rows;
+    const StencilRows<Real> V{rings.V(level - 1, mirrored(i - 1, rows)), rings.V(level - 1, i),
+                              rings.V(level - 1, mirrored(i + 1, rows))};
+    const int owned = tile.first_column - origin;
+    if (i >= tile.first_row && i < tile.last_row)
+      record(columns, m, i, first_step + level - 1, tile.first_column, tile.last_column, V.here + owned);
+    const auto row = metric.row(V, i);
+    const bool first = level == 1, last = level == plan.depth;
+    const int next_row = diffusion.grid.columns;
+    const NodeUpdate<Model> update{model,
+                                   dt,
+                                   V.here,
+                                   first ? &old_state.r(m, i, origin) : rings.r(i),
+                                   tension(first, old_state.Ta, rings, m, i, origin),
+                                   last ? &new_state.V(m, i, origin) : rings.V(level, i),
+                                   last ? &new_state.r(m, i, origin) : rings.r(i),
+                                   tension(last, new_state.Ta, rings, m, i, origin)};
+    const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
+    if (last)
+      columns.template each<Real>(owned, tile.last_column - origin, at,
+                                  [=](int j) { update.prefetch(j + next_row); });
+    else if (first)
+      columns.template each<Real>(0, tile.inside, at, [=](int j) { update.prefetch(j + next_row); });
+    else
+      columns.each(0, tile.width, at);
+    if (!last) mirror_ends(columns, tile, update.V_next);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION static Real* tension(bool in_memory, const View& Ta, const Rings& rings, int m,
+                                                   int i, int origin) {
+    if constexpr (!Model::has_tension)
+      return nullptr;
+    else
+      return in_memory ? &Ta(m, i, origin) : rings.Ta(i);
+  }
+};
+
+// Launches plan.depth steps, numbered from first_step on for record(columns, m, i, step, begin, end, V),
+// which sees V of the owned columns of row i before each step. No fence. plan.columns is a multiple of a
+// line's entries, or all columns.
+template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
+void tiled_step(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
+                const TilePlan& plan, const ExcitationFields<View>& old_state,
+                const ExcitationFields<View>& new_state, int first_step = 0, const Recorder& record = {}) {
+  using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
+  const int members = static_cast<int>(old_state.V.extent(0));
+  const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
+            column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
+  const Step step{
+      diffusion,  model, typename Diffusion::Scalar(dt), plan, row_tiles, column_tiles, old_state, new_state,
+      first_step, record};
+  typename Step::Policy policy(space, members * row_tiles * column_tiles, Step::warps, Step::lanes);
+  policy.set_scratch_size(Step::scratch_level, Kokkos::PerTeam(Step::scratch_bytes(plan.depth)));
+  Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
+}
+
+// Any number of steps without a stimulus, in launches of equal depth as far as it goes. The new state is in
+// `state` afterwards; `spare` are fields of the same shape.
+template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
+void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
+                 int steps, ExcitationFields<View>& state, ExcitationFields<View>& spare, int first_step = 0,
+                 const Recorder& record = {}) {
+  using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
+  const int members = static_cast<int>(state.V.extent(0));
+  const int launches = tiles_of(steps, Step::largest_depth());
+  for (int n = 0, done = 0; n < launches; ++n) {
+    const int depth = (steps - done) / (launches - n);
+    tiled_step(space, diffusion, model, dt, Step::plan_tiles(space, diffusion.grid, members, depth), state,
+               spare, first_step + done, record);
+    std::swap(state, spare);
+    done += depth;
+  }
+}
+
+}  // namespace myowave::tissue
