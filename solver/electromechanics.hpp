@@ -5,6 +5,7 @@
 #include <Kokkos_Core.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/observe/phase_singularity.hpp"
@@ -26,9 +27,23 @@ struct AreaSample {
 // cell's energy is then bounded by its mass, so that no grid mode grows, for any F.
 double largest_stable_dt(const Scene&, double trace_inverse_C);
 
+// A View and its copy on the host, allocated together, so that a look at it allocates nothing. The
+// same memory where the host reaches the View.
+template <class View>
+struct Mirrored {
+  View device;
+  typename View::host_mirror_type host;
+
+  Mirrored() = default;
+  template <class... Extents>
+  explicit Mirrored(const std::string& label, Extents... extents)
+      : device(label, extents...), host(Kokkos::create_mirror_view(device)) {}
+};
+
 template <class ExecutionSpace, class Real>
 class Electromechanics {
  public:
+  using Host = Kokkos::DefaultHostExecutionSpace;
   using Space = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, Space>;
 
@@ -71,6 +86,7 @@ class Electromechanics {
 
  private:
   void measure_area(double t);
+  void upload_stimuli(const std::vector<tissue::ActiveStimulus>&);
   void refresh_metric(double t);
 
   ExecutionSpace space_;
@@ -83,18 +99,23 @@ class Electromechanics {
   typename ModelForms<ExecutionSpace, Real>::Any form_;
   View V_, V_next_, r_, Ta_;
 
-  std::optional<Equilibrium<ExecutionSpace>> equilibrium_;
-  GaussTension<Space> gauss_tension_;
-  Kokkos::View<double*, Space> element_areas_;
+  // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
+  std::optional<Equilibrium<Host>> equilibrium_;
+  Mirrored<GaussTension<Space>> gauss_tension_;
+  Mirrored<Nodes<Space>> nodes_;  // of the last solve
+  Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
   AreaSample area_;
 
+  using Record = Kokkos::View<Real**, Kokkos::LayoutRight, Space>;
   std::vector<double> probe_history_;
-  Kokkos::View<std::int64_t*, Space> probe_nodes_;                 // linear index of each probe
-  Kokkos::View<Real**, Kokkos::LayoutRight, Space> probe_record_;  // (step, probe)
-  Kokkos::View<int, Space> tip_count_;
-  Kokkos::View<observe::PhaseSingularity*, Space> tip_list_;
-  Kokkos::View<tissue::ActiveStimulus*, Space> active_stimuli_;
+  Kokkos::View<std::int64_t*, Space> probe_nodes_;  // linear index of each probe
+  Mirrored<Record> probe_record_;                   // (step, probe)
+  Mirrored<Record> probe_values_;                   // (V, r, Ta; probe)
+  Mirrored<Kokkos::View<int, Space>> tip_count_;
+  Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
+  Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
+  std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
 };
 
 }  // namespace myowave::solver
