@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include "kernels/observe/area_change.hpp"
 #include "kernels/observe/finite_check.hpp"
 #include "kernels/observe/probes.hpp"
 #include "kernels/transfer/tension_to_gauss.hpp"
+#include "solver/denormals.hpp"
 #include "solver/error.hpp"
 
 namespace myowave::solver {
@@ -68,6 +70,22 @@ std::vector<double> to_host(const View& view) {
   return {host.data(), host.data() + host.size()};
 }
 
+// For solves on a thread of their own: kernels of two threads may run at once where their instances
+// differ. One thread, for the others belong to the steps. Empty where the backend has a single
+// instance, or a single core for everything.
+template <class ExecutionSpace>
+std::optional<Kokkos::DefaultHostExecutionSpace> second_host_instance() {
+  using Host = Kokkos::DefaultHostExecutionSpace;
+#ifdef KOKKOS_ENABLE_OPENMP
+  if constexpr (std::is_same_v<Host, Kokkos::OpenMP>) return Kokkos::OpenMP(1);
+#endif
+#ifdef KOKKOS_ENABLE_SERIAL
+  if constexpr (std::is_same_v<Host, Kokkos::Serial> && !std::is_same_v<ExecutionSpace, Kokkos::Serial>)
+    return Kokkos::Serial(Kokkos::NewInstance{});
+#endif
+  return std::nullopt;
+}
+
 }  // namespace
 
 double largest_stable_dt(const Scene& scene, double trace_inverse_C) {
@@ -118,6 +136,7 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
   const Timer timer(phases_->mechanics);
   const Host host;
+  if (scene.mechanics->overlap) solver_space_ = second_host_instance<ExecutionSpace>();
   equilibrium_.emplace(host, elements, *scene.mechanics);
   equilibrium_->solve(host, gauss_tension_.host, 0);
   observe::element_areas(host, elements, equilibrium_->nodes(), element_areas_);
@@ -131,18 +150,38 @@ int Electromechanics<ExecutionSpace, Real>::mechanics_interval() const {
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
-  {
-    const Timer timer(phases_->transfer);
-    if (scene_.mechanics->contraction)
-      transfer::tension_to_gauss<ExecutionSpace, Real>(
-          space_, equilibrium_->grid(), scene_.mechanics->cells_per_element, Ta_, 0, gauss_tension_.device);
-    Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
-    space_.fence("myowave::solver::solve_mechanics");
-  }
+bool Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
+  const bool taken = finish_mechanics(t);
+  begin_mechanics(t);
+  const bool at_once = !scene_.mechanics->overlap || !first_solve_taken_;
+  return at_once ? finish_mechanics(t) : taken;
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
+  const Timer timer(phases_->transfer);
+  if (scene_.mechanics->contraction)
+    transfer::tension_to_gauss<ExecutionSpace, Real>(
+        space_, equilibrium_->grid(), scene_.mechanics->cells_per_element, Ta_, 0, gauss_tension_.device);
+  Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
+  space_.fence("myowave::solver::begin_mechanics");
+  // Deferred: it is solved where it is taken.
+  const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
+  begun_ = BegunSolve{t, std::async(policy, [this, t] {
+                        if (solver_space_) flush_denormals_of_this_thread();
+                        return equilibrium_->solve(solver_space_.value_or(Host()), gauss_tension_.host, t);
+                      })};
+}
+
+template <class ExecutionSpace, class Real>
+bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
+  if (!begun_) return false;
+  BegunSolve begun = std::move(*begun_);
+  begun_.reset();
   {
     const Timer timer(phases_->mechanics);
-    const SolveReport report = equilibrium_->solve(Host(), gauss_tension_.host, t);
+    const SolveReport report = begun.report.get();
+    first_solve_taken_ = true;
     ++statistics_->solves;
     statistics_->newton_iterations += report.iterations;
     statistics_->newton_max = std::max(statistics_->newton_max, report.iterations);
@@ -150,10 +189,11 @@ void Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
     statistics_->shifts += report.shifts;
     statistics_->min_J = std::min(statistics_->min_J, report.min_J);
     Kokkos::deep_copy(Host(), nodes_.host, equilibrium_->nodes());
-    Host().fence("myowave::solver::solve_mechanics");
+    Host().fence("myowave::solver::finish_mechanics");
   }
   refresh_metric(t);
-  measure_area(t);
+  measure_area(begun.t);
+  return true;
 }
 
 template <class ExecutionSpace, class Real>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Kokkos_Core.hpp>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,12 +53,20 @@ class Electromechanics {
   Electromechanics(const ExecutionSpace&, const Scene&, const InitialState&, PhaseSeconds&,
                    MechanicsStatistics&);
 
+  // A solve may be at work on what is in here.
+  Electromechanics(const Electromechanics&) = delete;
+  Electromechanics& operator=(const Electromechanics&) = delete;
+
   // Steps between solves; 0 in a rigid sheet.
   int mechanics_interval() const;
 
-  // Equilibrium with the tension of now, then the metric. Errors: NumericalFailure, also where the
-  // new metric makes dt unstable.
-  void solve_mechanics(double t);
+  // Equilibrium with the tension of now, then the metric. With mechanics.overlap: takes the solve
+  // begun by the call before, which it waits for, and begins the one with the tension of now; only
+  // the first is solved at once. True where nodes, metric and area() are new.
+  // Errors: NumericalFailure, also where the new metric makes dt unstable.
+  bool solve_mechanics(double t);
+  // Takes the solve that is begun, if any. Returns and errors as above.
+  bool finish_mechanics(double t);
 
   // `count` explicit steps from step `first`; t = step dt. Appends V at the probes before each step.
   void advance(std::int64_t first, std::int64_t count);
@@ -76,7 +85,7 @@ class Electromechanics {
   // V, r, Ta of each probe now.
   std::vector<double> probe_values() const;
 
-  const AreaSample& area() const { return area_; }  // at the last solve
+  const AreaSample& area() const { return area_; }  // of the last solve taken, at the time of its tension
   bool deforms() const { return equilibrium_.has_value(); }
 
   InitialState download() const;
@@ -85,6 +94,7 @@ class Electromechanics {
   double stimulus_period() const { return schedule_.last_period(); }
 
  private:
+  void begin_mechanics(double t);
   void measure_area(double t);
   void upload_stimuli(const std::vector<tissue::ActiveStimulus>&);
   void refresh_metric(double t);
@@ -102,7 +112,7 @@ class Electromechanics {
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;
   Mirrored<GaussTension<Space>> gauss_tension_;
-  Mirrored<Nodes<Space>> nodes_;  // of the last solve
+  Mirrored<Nodes<Space>> nodes_;  // of the last solve taken
   Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
   AreaSample area_;
@@ -116,6 +126,15 @@ class Electromechanics {
   Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
   Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
   std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
+
+  struct BegunSolve {
+    double t;  // of its tension
+    std::future<SolveReport> report;
+  };
+  std::optional<Host> solver_space_;  // of solves on a thread of their own
+  bool first_solve_taken_ = false;
+  // Last, so that its destructor waits for the solve before what it works on goes.
+  std::optional<BegunSolve> begun_;
 };
 
 }  // namespace myowave::solver
