@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "kernels/observe/area_change.hpp"
@@ -68,6 +68,12 @@ template <class View>
 std::vector<double> to_host(const View& view) {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
   return {host.data(), host.data() + host.size()};
+}
+
+auto values_of(const tissue::ActiveStimulus& stimulus) {
+  const auto& r = stimulus.region;
+  return std::tuple(r.row_begin, r.row_end, r.column_begin, r.column_end, r.center_row, r.center_column,
+                    r.radius2, stimulus.amplitude);
 }
 
 // For solves on a thread of their own: kernels of two threads may run at once where their instances
@@ -311,8 +317,7 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::upload_stimuli(
     const std::vector<tissue::ActiveStimulus>& active) {
-  const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; };
-  if (std::ranges::equal(active, uploaded_stimuli_, same)) return;
+  if (std::ranges::equal(active, uploaded_stimuli_, {}, values_of, values_of)) return;
   uploaded_stimuli_ = active;
   if (active.empty()) return;
   Kokkos::deep_copy(space_, first_rows(stimuli_, active.size()),
