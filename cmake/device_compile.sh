@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Compiles translation units to a GPU's machine code on a machine without that GPU and without a
-# Kokkos built for it, and prints what each kernel needs. It is a compile check; it proves no run.
+# Kokkos built for it, and prints and judges what each kernel needs (kernel_resources.sh). It is a
+# compile check; it proves no run.
 #
 #   cmake/device_compile.sh cuda|hip KOKKOS_INCLUDE WORK SOURCE...
 #
@@ -68,39 +69,17 @@ compile() {
   mv "$object.new" "$object"
 }
 
-# One line a kernel of ours: what the compiler gave it, and which function launches it.
-report() {
-  c++filt <"$1" | awk '
-    function launcher(line) {
-      # Kernels of Kokkos itself (fills, copies) carry no name of ours.
-      if (!match(line, /myowave::/)) return ""
-      line = substr(line, RSTART + RLENGTH)
-      sub(/\(.*|, Kokkos::.*/, "", line)
-      gsub(/(Kokkos|myowave|Impl|Experimental)::/, "", line)
-      return substr(line, 1, 100)
-    }
-    function number(line, before) { sub(".*" before, "", line); return line + 0 }
-    function row(kind, count, stack, spill) {
-      if (name != "") printf "  %4d %s %5d B stack %4d %s spilled  %s\n", count, kind, stack, spill, kind == "VGPRs" ? kind : "B", name
-    }
-    # ptxas -v
-    /Compiling entry function/ { name = launcher($0) }
-    /bytes stack frame/ { stack = $1; spill = $5 + $9 }
-    /Used [0-9]+ registers/ { row("registers", number($0, "Used "), stack, spill) }
-    # clang -Rpass-analysis=kernel-resource-usage
-    /Function Name: / { name = launcher($0) }
-    / VGPRs: / { vgprs = number($0, " VGPRs: ") }
-    /ScratchSize / { stack = number($0, "]: ") }
-    /VGPRs Spill: / { row("VGPRs", vgprs, stack, number($0, "Spill: ")) }'
-}
-
 "find_$backend"
 write_overlay
-failed=0
+failed=0 compiled=()
 for source in "$@"; do
   object=$work/$(basename "${source%.cpp}").o
   echo "$backend: ${source#"$project"/}"
   is_fresh "$object" || compile "$source" "$object" || { failed=1; continue; }
-  report "$object.log"
+  compiled+=("$source")
 done
+for source in "${compiled[@]}"; do
+  echo "source: ${source#"$project"/}"
+  cat "$work/$(basename "${source%.cpp}").o.log"
+done | "$project/cmake/kernel_resources.sh" || failed=1
 exit $failed

@@ -6,11 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "kernels/observe/area_change.hpp"
 #include "kernels/observe/finite_check.hpp"
 #include "kernels/observe/probes.hpp"
 #include "kernels/transfer/tension_to_gauss.hpp"
+#include "solver/denormals.hpp"
 #include "solver/error.hpp"
 
 namespace myowave::solver {
@@ -51,10 +54,42 @@ void upload(const View& view, const std::vector<double>& values) {
   Kokkos::deep_copy(view, host);
 }
 
+// What is in use of a View with room for more.
+template <class DataType, class... Traits>
+auto first_rows(const Kokkos::View<DataType, Traits...>& view, std::size_t rows) {
+  const std::pair<std::size_t, std::size_t> range{0, rows};
+  if constexpr (Kokkos::View<DataType, Traits...>::rank() == 1)
+    return Kokkos::subview(view, range);
+  else
+    return Kokkos::subview(view, range, Kokkos::ALL);
+}
+
 template <class View>
 std::vector<double> to_host(const View& view) {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
   return {host.data(), host.data() + host.size()};
+}
+
+auto values_of(const tissue::ActiveStimulus& stimulus) {
+  const auto& r = stimulus.region;
+  return std::tuple(r.row_begin, r.row_end, r.column_begin, r.column_end, r.center_row, r.center_column,
+                    r.radius2, stimulus.amplitude);
+}
+
+// For solves on a thread of their own: kernels of two threads may run at once where their instances
+// differ. One thread, for the others belong to the steps. Empty where the backend has a single
+// instance, or a single core for everything.
+template <class ExecutionSpace>
+std::optional<Kokkos::DefaultHostExecutionSpace> second_host_instance() {
+  using Host = Kokkos::DefaultHostExecutionSpace;
+#ifdef KOKKOS_ENABLE_OPENMP
+  if constexpr (std::is_same_v<Host, Kokkos::OpenMP>) return Kokkos::OpenMP(1);
+#endif
+#ifdef KOKKOS_ENABLE_SERIAL
+  if constexpr (std::is_same_v<Host, Kokkos::Serial> && !std::is_same_v<ExecutionSpace, Kokkos::Serial>)
+    return Kokkos::Serial(Kokkos::NewInstance{});
+#endif
+  return std::nullopt;
 }
 
 }  // namespace
@@ -84,8 +119,10 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       V_next_("myowave::solver::V_next", 1, grid_.rows, grid_.columns),
       r_("myowave::solver::r", 1, grid_.rows, grid_.columns),
       Ta_("myowave::solver::Ta", 1, grid_.rows, grid_.columns),
+      probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
-      tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)) {
+      tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)),
+      stimuli_("myowave::solver::stimuli", scene.stimuli.size()) {
   upload(V_, state.V);
   upload(r_, state.r);
   upload(Ta_, state.Ta);
@@ -99,13 +136,18 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
 
   if (!scene.mechanics) return;
   const auto elements = make_elements(scene);
-  gauss_tension_ = GaussTension<Space>("myowave::solver::gauss_tension", elements.elements());
-  element_areas_ = Kokkos::View<double*, Space>("myowave::solver::element_areas", elements.elements());
+  gauss_tension_ = Mirrored<GaussTension<Space>>("myowave::solver::gauss_tension", elements.elements());
+  nodes_ = Mirrored<Nodes<Space>>("myowave::solver::nodes", elements.nodes());
+  element_areas_ =
+      Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
   const Timer timer(phases_->mechanics);
-  equilibrium_.emplace(space_, elements, *scene.mechanics);
-  equilibrium_->solve(space_, gauss_tension_, 0);
-  observe::element_areas(space_, elements, equilibrium_->nodes(), element_areas_);
-  rest_areas_ = to_host(element_areas_);
+  const Host host;
+  if (scene.mechanics->overlap) solver_space_ = second_host_instance<ExecutionSpace>();
+  equilibrium_.emplace(host, elements, *scene.mechanics);
+  equilibrium_->solve(host, gauss_tension_.host, 0);
+  observe::element_areas(host, elements, equilibrium_->nodes(), element_areas_);
+  host.fence("myowave::solver::rest_state");
+  rest_areas_.assign(element_areas_.data(), element_areas_.data() + element_areas_.size());
 }
 
 template <class ExecutionSpace, class Real>
@@ -114,26 +156,50 @@ int Electromechanics<ExecutionSpace, Real>::mechanics_interval() const {
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
-  {
-    const Timer timer(phases_->transfer);
-    if (scene_.mechanics->contraction)
-      transfer::tension_to_gauss<ExecutionSpace, Real>(
-          space_, equilibrium_->grid(), scene_.mechanics->cells_per_element, Ta_, 0, gauss_tension_);
-    space_.fence("myowave::solver::solve_mechanics");
-  }
+bool Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
+  const bool taken = finish_mechanics(t);
+  begin_mechanics(t);
+  const bool at_once = !scene_.mechanics->overlap || !first_solve_taken_;
+  return at_once ? finish_mechanics(t) : taken;
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
+  const Timer timer(phases_->transfer);
+  if (scene_.mechanics->contraction)
+    transfer::tension_to_gauss<ExecutionSpace, Real>(
+        space_, equilibrium_->grid(), scene_.mechanics->cells_per_element, Ta_, 0, gauss_tension_.device);
+  Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
+  space_.fence("myowave::solver::begin_mechanics");
+  // Deferred: it is solved where it is taken.
+  const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
+  begun_ = BegunSolve{t, std::async(policy, [this, t] {
+                        if (solver_space_) flush_denormals_of_this_thread();
+                        return equilibrium_->solve(solver_space_.value_or(Host()), gauss_tension_.host, t);
+                      })};
+}
+
+template <class ExecutionSpace, class Real>
+bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
+  if (!begun_) return false;
+  BegunSolve begun = std::move(*begun_);
+  begun_.reset();
   {
     const Timer timer(phases_->mechanics);
-    const SolveReport report = equilibrium_->solve(space_, gauss_tension_, t);
+    const SolveReport report = begun.report.get();
+    first_solve_taken_ = true;
     ++statistics_->solves;
     statistics_->newton_iterations += report.iterations;
     statistics_->newton_max = std::max(statistics_->newton_max, report.iterations);
     statistics_->factorizations += report.factorizations;
     statistics_->shifts += report.shifts;
     statistics_->min_J = std::min(statistics_->min_J, report.min_J);
+    Kokkos::deep_copy(Host(), nodes_.host, equilibrium_->nodes());
+    Host().fence("myowave::solver::finish_mechanics");
   }
   refresh_metric(t);
-  measure_area(t);
+  measure_area(begun.t);
+  return true;
 }
 
 template <class ExecutionSpace, class Real>
@@ -141,10 +207,12 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
   const Timer timer(phases_->transfer);
   const auto bounds = std::visit(
       [&](const auto& form) -> transfer::DeformationBounds {
-        if constexpr (requires { form.transfer; })
-          return form.transfer.refresh(space_, equilibrium_->nodes(), form.diffusion.metric, 0);
-        else
+        if constexpr (requires { form.transfer; }) {
+          Kokkos::deep_copy(space_, nodes_.device, nodes_.host);
+          return form.transfer.refresh(space_, nodes_.device, form.diffusion.metric, 0);
+        } else {
           return {};
+        }
       },
       form_);
   const double bound = largest_stable_dt(scene_, std::max(2.0, bounds.max_trace_inverse_C));
@@ -158,8 +226,10 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::measure_area(double t) {
   const Timer timer(phases_->observe);
-  observe::element_areas(space_, equilibrium_->grid(), equilibrium_->nodes(), element_areas_);
-  const std::vector<double> areas = to_host(element_areas_);
+  const Host host;
+  observe::element_areas(host, equilibrium_->grid(), nodes_.host, element_areas_);
+  host.fence("myowave::solver::measure_area");
+  const std::span<const double> areas(element_areas_.data(), element_areas_.size());
   area_ = {t, 0, areas[0] / rest_areas_[0], areas[0] / rest_areas_[0], 0};
   for (std::size_t e = 0; e < areas.size(); ++e) {
     area_.min_ratio = std::min(area_.min_ratio, areas[e] / rest_areas_[e]);
@@ -176,11 +246,11 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
   const Timer timer(phases_->excitation);
   const double dt = scene_.time.dt;
   const auto probes = probe_nodes_.extent(0);
-  if (probe_record_.extent(0) < static_cast<std::size_t>(count))
-    Kokkos::realloc(Kokkos::WithoutInitializing, probe_record_, count, probes);
+  if (probe_record_.device.extent(0) < static_cast<std::size_t>(count))
+    probe_record_ = Mirrored<Record>("myowave::solver::probe_record", count, probes);
   for (std::int64_t n = 0; n < count; ++n) {
     const double t = static_cast<double>(first + n) * dt;
-    observe::record_probes(space_, V_, probe_nodes_, probe_record_, static_cast<int>(n));
+    observe::record_probes(space_, V_, probe_nodes_, probe_record_.device, static_cast<int>(n));
     std::visit(
         [&](const auto& form) {
           tissue::monodomain_step(space_, form.diffusion, model_, dt, V_, r_, Ta_, V_next_);
@@ -190,10 +260,9 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
       tissue::add_stimulus(space_, V_next_, stimulus, dt / scene_.excitation.C_m);
     std::swap(V_, V_next_);
   }
+  const auto history = first_rows(probe_record_.host, count);
+  Kokkos::deep_copy(space_, history, first_rows(probe_record_.device, count));
   space_.fence("myowave::solver::advance");
-  const auto history = Kokkos::create_mirror_view_and_copy(
-      Kokkos::HostSpace{},
-      Kokkos::subview(probe_record_, std::pair<std::int64_t, std::int64_t>{0, count}, Kokkos::ALL));
   probe_history_.resize(static_cast<std::size_t>(count) * probes);
   for (std::int64_t n = 0; n < count; ++n)
     for (std::size_t p = 0; p < probes; ++p) probe_history_[n * probes + p] = history(n, p);
@@ -219,27 +288,23 @@ void Electromechanics<ExecutionSpace, Real>::check_finite(double t) const {
 template <class ExecutionSpace, class Real>
 auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   const Timer timer(phases_->observe);
-  const auto& active = schedule_.active(t);
-  if (active_stimuli_.extent(0) != active.size())
-    active_stimuli_ =
-        Kokkos::View<tissue::ActiveStimulus*, Space>("myowave::solver::active_stimuli", active.size());
-  if (!active.empty())
-    Kokkos::deep_copy(active_stimuli_, Kokkos::View<const tissue::ActiveStimulus*, Kokkos::HostSpace>(
-                                           active.data(), active.size()));
-  Kokkos::deep_copy(space_, tip_count_, 0);
+  upload_stimuli(schedule_.active(t));
+  Kokkos::deep_copy(space_, tip_count_.device, 0);
   Activity activity;
   activity.largest_V = std::visit(
       [&](const auto& form) {
         using Rate = tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, Model<Real>>;
-        const Rate rate{form.diffusion, model_, V_, r_, active_stimuli_};
-        return observe::find_phase_singularities(space_, grid_, V_, rate, tip_count_, tip_list_);
+        const Rate rate{form.diffusion, model_, V_, r_, first_rows(stimuli_, uploaded_stimuli_.size())};
+        return observe::find_phase_singularities(space_, grid_, V_, rate, tip_count_.device,
+                                                 tip_list_.device);
       },
       form_);
-  int count = 0;
-  Kokkos::deep_copy(count, tip_count_);
-  const auto found = static_cast<std::size_t>(std::min<std::int64_t>(count, tip_list_.extent(0)));
-  const auto list = Kokkos::create_mirror_view_and_copy(
-      Kokkos::HostSpace{}, Kokkos::subview(tip_list_, std::pair<std::size_t, std::size_t>{0, found}));
+  Kokkos::deep_copy(space_, tip_count_.host, tip_count_.device);
+  space_.fence("myowave::solver::find_tips");
+  const auto found = std::min<std::size_t>(tip_count_.host(), tip_list_.device.extent(0));
+  const auto list = first_rows(tip_list_.host, found);
+  Kokkos::deep_copy(space_, list, first_rows(tip_list_.device, found));
+  space_.fence("myowave::solver::find_tips");
   std::vector<observe::PhaseSingularity> sorted(list.data(), list.data() + found);
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
     return std::pair{a.row, a.column} < std::pair{b.row, b.column};
@@ -248,17 +313,28 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   return activity;
 }
 
+// A look often finds the same stimuli as the one before: none, or those of a long pulse.
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::upload_stimuli(
+    const std::vector<tissue::ActiveStimulus>& active) {
+  if (std::ranges::equal(active, uploaded_stimuli_, {}, values_of, values_of)) return;
+  uploaded_stimuli_ = active;
+  if (active.empty()) return;
+  Kokkos::deep_copy(space_, first_rows(stimuli_, active.size()),
+                    Kokkos::View<const tissue::ActiveStimulus*, Kokkos::HostSpace>(uploaded_stimuli_.data(),
+                                                                                   active.size()));
+}
+
 template <class ExecutionSpace, class Real>
 std::vector<double> Electromechanics<ExecutionSpace, Real>::probe_values() const {
-  const auto probes = probe_nodes_.extent(0);
-  const Kokkos::View<Real**, Kokkos::LayoutRight, Space> record("myowave::solver::probe_values", 3, probes);
-  observe::record_probes(space_, V_, probe_nodes_, record, 0);
-  observe::record_probes(space_, r_, probe_nodes_, record, 1);
-  observe::record_probes(space_, Ta_, probe_nodes_, record, 2);
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, record);
+  observe::record_probes(space_, V_, probe_nodes_, probe_values_.device, 0);
+  observe::record_probes(space_, r_, probe_nodes_, probe_values_.device, 1);
+  observe::record_probes(space_, Ta_, probe_nodes_, probe_values_.device, 2);
+  Kokkos::deep_copy(space_, probe_values_.host, probe_values_.device);
+  space_.fence("myowave::solver::probe_values");
   std::vector<double> values;
-  for (std::size_t p = 0; p < probes; ++p)
-    for (int variable = 0; variable < 3; ++variable) values.push_back(host(variable, p));
+  for (std::size_t p = 0; p < probe_nodes_.extent(0); ++p)
+    for (int variable = 0; variable < 3; ++variable) values.push_back(probe_values_.host(variable, p));
   return values;
 }
 
@@ -269,7 +345,7 @@ InitialState Electromechanics<ExecutionSpace, Real>::download() const {
 
 template <class ExecutionSpace, class Real>
 std::vector<double> Electromechanics<ExecutionSpace, Real>::download_nodes() const {
-  return equilibrium_ ? to_host(equilibrium_->nodes()) : std::vector<double>{};
+  return {nodes_.host.data(), nodes_.host.data() + nodes_.host.size()};
 }
 
 template class Electromechanics<Kokkos::DefaultExecutionSpace, double>;

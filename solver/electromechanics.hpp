@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Kokkos_Core.hpp>
+#include <future>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/observe/phase_singularity.hpp"
@@ -26,9 +28,23 @@ struct AreaSample {
 // cell's energy is then bounded by its mass, so that no grid mode grows, for any F.
 double largest_stable_dt(const Scene&, double trace_inverse_C);
 
+// A View and its copy on the host, allocated together, so that a look at it allocates nothing. The
+// same memory where the host reaches the View.
+template <class View>
+struct Mirrored {
+  View device;
+  typename View::host_mirror_type host;
+
+  Mirrored() = default;
+  template <class... Extents>
+  explicit Mirrored(const std::string& label, Extents... extents)
+      : device(label, extents...), host(Kokkos::create_mirror_view(device)) {}
+};
+
 template <class ExecutionSpace, class Real>
 class Electromechanics {
  public:
+  using Host = Kokkos::DefaultHostExecutionSpace;
   using Space = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, Space>;
 
@@ -37,12 +53,20 @@ class Electromechanics {
   Electromechanics(const ExecutionSpace&, const Scene&, const InitialState&, PhaseSeconds&,
                    MechanicsStatistics&);
 
+  // A solve may be at work on what is in here.
+  Electromechanics(const Electromechanics&) = delete;
+  Electromechanics& operator=(const Electromechanics&) = delete;
+
   // Steps between solves; 0 in a rigid sheet.
   int mechanics_interval() const;
 
-  // Equilibrium with the tension of now, then the metric. Errors: NumericalFailure, also where the
-  // new metric makes dt unstable.
-  void solve_mechanics(double t);
+  // Equilibrium with the tension of now, then the metric. With mechanics.overlap: takes the solve
+  // begun by the call before, which it waits for, and begins the one with the tension of now; only
+  // the first is solved at once. True where nodes, metric and area() are new.
+  // Errors: NumericalFailure, also where the new metric makes dt unstable.
+  bool solve_mechanics(double t);
+  // Takes the solve that is begun, if any. Returns and errors as above.
+  bool finish_mechanics(double t);
 
   // `count` explicit steps from step `first`; t = step dt. Appends V at the probes before each step.
   void advance(std::int64_t first, std::int64_t count);
@@ -61,7 +85,7 @@ class Electromechanics {
   // V, r, Ta of each probe now.
   std::vector<double> probe_values() const;
 
-  const AreaSample& area() const { return area_; }  // at the last solve
+  const AreaSample& area() const { return area_; }  // of the last solve taken, at the time of its tension
   bool deforms() const { return equilibrium_.has_value(); }
 
   InitialState download() const;
@@ -70,7 +94,9 @@ class Electromechanics {
   double stimulus_period() const { return schedule_.last_period(); }
 
  private:
+  void begin_mechanics(double t);
   void measure_area(double t);
+  void upload_stimuli(const std::vector<tissue::ActiveStimulus>&);
   void refresh_metric(double t);
 
   ExecutionSpace space_;
@@ -83,18 +109,32 @@ class Electromechanics {
   typename ModelForms<ExecutionSpace, Real>::Any form_;
   View V_, V_next_, r_, Ta_;
 
-  std::optional<Equilibrium<ExecutionSpace>> equilibrium_;
-  GaussTension<Space> gauss_tension_;
-  Kokkos::View<double*, Space> element_areas_;
+  // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
+  std::optional<Equilibrium<Host>> equilibrium_;
+  Mirrored<GaussTension<Space>> gauss_tension_;
+  Mirrored<Nodes<Space>> nodes_;  // of the last solve taken
+  Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
   AreaSample area_;
 
+  using Record = Kokkos::View<Real**, Kokkos::LayoutRight, Space>;
   std::vector<double> probe_history_;
-  Kokkos::View<std::int64_t*, Space> probe_nodes_;                 // linear index of each probe
-  Kokkos::View<Real**, Kokkos::LayoutRight, Space> probe_record_;  // (step, probe)
-  Kokkos::View<int, Space> tip_count_;
-  Kokkos::View<observe::PhaseSingularity*, Space> tip_list_;
-  Kokkos::View<tissue::ActiveStimulus*, Space> active_stimuli_;
+  Kokkos::View<std::int64_t*, Space> probe_nodes_;  // linear index of each probe
+  Mirrored<Record> probe_record_;                   // (step, probe)
+  Mirrored<Record> probe_values_;                   // (V, r, Ta; probe)
+  Mirrored<Kokkos::View<int, Space>> tip_count_;
+  Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
+  Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
+  std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
+
+  struct BegunSolve {
+    double t;  // of its tension
+    std::future<SolveReport> report;
+  };
+  std::optional<Host> solver_space_;  // of solves on a thread of their own
+  bool first_solve_taken_ = false;
+  // Last, so that its destructor waits for the solve before what it works on goes.
+  std::optional<BegunSolve> begun_;
 };
 
 }  // namespace myowave::solver

@@ -248,6 +248,10 @@ const elastic::ElementGrid& Equilibrium<ExecutionSpace>::grid() const {
   return impl_->grid;
 }
 
+template class Equilibrium<Kokkos::DefaultHostExecutionSpace>;
+// A run solves on the host; the benchmarks and tests also on a device, where there is one.
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
 template class Equilibrium<Kokkos::DefaultExecutionSpace>;
+#endif
 
 }  // namespace myowave::solver

@@ -138,19 +138,18 @@ class Stage {
   // The order of a step: solve the mechanics and refresh the metric, sample, then the Euler step.
   void advance(Sheet& sheet) {
     for (step_ = 0;;) {
-      if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0) {
-        sheet.solve_mechanics(t());
+      if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0 && sheet.solve_mechanics(t()))
         observers_.add_area(sheet.area());
-      }
       if (schedule_.due(step_, schedule_.check)) sheet.check_finite(t());
       if (observed_) sample(sheet);
       report_progress();
-      if (step_ == schedule_.last) return;
+      if (step_ == schedule_.last) break;
       const std::int64_t next = schedule_.next(step_);
       sheet.advance(step_, next - step_);
       if (observed_) observers_.add_probe_history(step_, sheet.probe_history());
       step_ = next;
     }
+    if (sheet.finish_mechanics(t())) observers_.add_area(sheet.area());
   }
 
   void sample(Sheet& sheet) {
@@ -333,14 +332,14 @@ std::vector<std::string> model_in_words(const Scene& scene) {
   } else {
     const auto& m = *scene.mechanics;
     words.push_back(fmt::format(
-        "incompressible Mooney-Rivlin membrane, {} x {} bilinear elements, {}, {}, solved every {} steps",
+        "incompressible Mooney-Rivlin membrane, {} x {} bilinear elements, {}, {}, solved every {} steps{}",
         (grid.rows - 1) / m.cells_per_element, (grid.columns - 1) / m.cells_per_element,
         m.edges == Edges::fixed
             ? std::string("edges fixed")
             : fmt::format("edge load p = {} kN/m ({})", m.p, m.load == Load::follower ? "follower" : "dead"),
         m.contraction ? "loaded by the active tension"
                       : "no contraction: the active tension does not load it",
-        m.interval));
+        m.interval, m.overlap ? " while the next steps run: nodes and metric are one interval old" : ""));
     switch (scene.metric) {
       case MetricForm::none:
         words.push_back("no feedback: conduction as in the undeformed sheet");
