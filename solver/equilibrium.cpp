@@ -35,7 +35,6 @@ elastic::Membrane membrane_of(const MechanicsSettings& settings) {
 template <class ExecutionSpace>
 struct Equilibrium<ExecutionSpace>::Impl {
   using Tension = GaussTension<MemorySpace>;
-  using Numbers = elastic::Numbers<MemorySpace>;
 
   elastic::ElementGrid grid;
   MechanicsSettings settings;
@@ -50,8 +49,8 @@ struct Equilibrium<ExecutionSpace>::Impl {
   Nodes<MemorySpace> tried;
   Nodes<MemorySpace> direction;
   typename Nodes<MemorySpace>::host_mirror_type direction_host;
-  Numbers energy;  // by element
-  typename Numbers::host_mirror_type energy_host;
+  elastic::Rows<MemorySpace> energy;  // and smallest J, by element
+  typename elastic::Rows<MemorySpace>::host_mirror_type energy_host;
 
   Tension solved_Ta;            // of `nodes`; zero for the undeformed sheet
   Tension mixed_Ta;             // of a part of a ramp
@@ -70,7 +69,7 @@ struct Equilibrium<ExecutionSpace>::Impl {
         tried("myowave::elastic::tried_nodes", grid.nodes()),
         direction("myowave::elastic::direction", grid.nodes()),
         direction_host(Kokkos::create_mirror_view(direction)),
-        energy("myowave::elastic::element_energy", grid.elements()),
+        energy("myowave::elastic::element_energy", 2, grid.elements()),
         energy_host(Kokkos::create_mirror_view(energy)),
         solved_Ta("myowave::elastic::solved_Ta", grid.elements()),
         mixed_Ta("myowave::elastic::mixed_Ta", grid.elements()) {}
@@ -97,11 +96,14 @@ struct Equilibrium<ExecutionSpace>::Impl {
 
     // The sum over the elements runs on the host: one order on every backend.
     Trial trial_at(const Nodes<MemorySpace>& positions) {
-      Trial trial;
-      trial.min_J = elastic::element_energies(space, sheet.membrane, sheet.grid, positions, Ta, sheet.energy);
+      elastic::element_energies(space, sheet.membrane, sheet.grid, positions, Ta, sheet.energy);
       Kokkos::deep_copy(space, sheet.energy_host, sheet.energy);
       space.fence("myowave::elastic::energy");
-      for (std::size_t e = 0; e < sheet.energy_host.extent(0); ++e) trial.energy += sheet.energy_host(e);
+      Trial trial{.energy = 0, .min_J = sheet.energy_host(1, 0)};
+      for (int e = 0; e < sheet.grid.elements(); ++e) {
+        trial.energy += sheet.energy_host(0, e);
+        trial.min_J = std::min(trial.min_J, sheet.energy_host(1, e));
+      }
       return trial;
     }
   };
