@@ -229,7 +229,8 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
           .ramp_steps = effort.ramp_steps,
           .residual = effort.last.residual,
           .energy = effort.last.energy,
-          .min_J = effort.last.min_J};
+          .min_J = effort.last.min_J,
+          .time = effort.time};
 }
 
 template <class ExecutionSpace>
