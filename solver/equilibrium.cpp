@@ -52,8 +52,10 @@ struct Equilibrium<ExecutionSpace>::Impl {
   elastic::Rows<MemorySpace> energy;  // and smallest J, by element
   typename elastic::Rows<MemorySpace>::host_mirror_type energy_host;
 
-  Tension solved_Ta;            // of `nodes`; zero for the undeformed sheet
-  Tension mixed_Ta;             // of a part of a ramp
+  Tension solved_Ta;  // of `nodes`; zero for the undeformed sheet
+  Tension mixed_Ta;   // of a part of a ramp
+  // The solver's last factor is of the tangent at `start`, under the tension of before.
+  bool start_has_factor = false;
   bool in_equilibrium = false;  // false: `nodes` are undeformed
 
   Impl(const ExecutionSpace& space, const elastic::ElementGrid& grid_in, const MechanicsSettings& settings_in)
@@ -132,7 +134,8 @@ struct Equilibrium<ExecutionSpace>::Impl {
     const NewtonSettings newton{.tolerance = settings.tolerance,
                                 .residual_unit = stress_unit * grid.h,
                                 .energy_unit = undeformed_energy * grid.elements() * grid.h * grid.h};
-    effort.add(Newton(problem, solver, newton).minimise());
+    effort.add(Newton(problem, solver, newton).minimise(start_has_factor));
+    start_has_factor = effort.last.converged && (start_has_factor || effort.last.factorizations > 0);
     return effort.last.converged;
   }
 
@@ -165,7 +168,9 @@ struct Equilibrium<ExecutionSpace>::Impl {
     const int middle = middle_node(grid);
     const auto pins = Kokkos::create_mirror_view_and_copy(
         Kokkos::HostSpace{}, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
-    if (pins(1, 0) < pins(0, 0)) elastic::turn_around(space, middle, current);
+    if (pins(1, 0) >= pins(0, 0)) return;
+    elastic::turn_around(space, middle, current);
+    start_has_factor = false;
   }
 
   // Errors: NumericalFailure, always.
@@ -244,6 +249,7 @@ void Equilibrium<ExecutionSpace>::reset(const ExecutionSpace& space) {
   Kokkos::deep_copy(space, impl_->solved_Ta, 0.0);
   space.fence("myowave::elastic::reset");
   impl_->in_equilibrium = false;
+  impl_->start_has_factor = false;
 }
 
 template <class ExecutionSpace>

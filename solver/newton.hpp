@@ -16,6 +16,11 @@
 // number of elements. With I in its place the motions of the sheet as a whole, whose share of K
 // falls with the number of elements, are held back: 100 x 100 elements do not converge.
 //
+// Where the solver has the factor of an equilibrium and the forces on it have changed since, the first
+// step is taken with that factor: it goes along the path of equilibria. The tangent under the new
+// forces is mostly indefinite at the old positions, and the two or three steps that its directions
+// take to come near the new equilibrium are saved.
+//
 // Everything here is serial and in a fixed order: the number of threads changes no decision.
 #pragma once
 
@@ -26,6 +31,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/direct_solver.hpp"
@@ -93,7 +99,8 @@ class Newton {
   Newton(Problem& problem, DirectSolver& solver, const NewtonSettings& settings)
       : problem_(problem), solver_(solver), settings_(settings) {}
 
-  NewtonReport minimise() {
+  // `start_has_factor`: the solver's last factor is of the tangent at an equilibrium where this starts.
+  NewtonReport minimise(bool start_has_factor = false) {
     NewtonReport report;
     Trial current = timed(report.time.energy, [&] { return problem_.evaluate(); });
     double shift = 0;
@@ -106,6 +113,10 @@ class Newton {
       report.converged = report.residual < settings_.tolerance;
       if (report.converged || report.iterations == settings_.max_iterations) return report;
 
+      if (std::exchange(start_has_factor, false) && descend(current, report)) {
+        ++report.iterations;
+        continue;
+      }
       while (!step(current, shift, report)) {
         shift = std::max(settings_.shift_growth * shift, settings_.first_shift);
         report.largest_shift = std::max(report.largest_shift, shift);
@@ -118,7 +129,7 @@ class Newton {
   }
 
  private:
-  // One direction and its line search; true where a step was accepted.
+  // A step with a new factor; true where one was accepted.
   bool step(Trial& current, double shift, NewtonReport& report) {
     ++report.factorizations;
     if (shift > 0) ++report.shifts;
@@ -126,6 +137,11 @@ class Newton {
         timed(report.time.factorize, [&] { return solver_.factorize(problem_.tangent(shift)); });
     if (factorization == Factorization::failed) return false;
     if (factorization == Factorization::indefinite && report.residual < settings_.near_solution) return false;
+    return descend(current, report);
+  }
+
+  // The direction of the last factor and its line search; true where a step was accepted.
+  bool descend(Trial& current, NewtonReport& report) {
     const auto residual = problem_.residual();
     direction_.resize(residual.size());
     timed(report.time.triangular, [&] { solver_.solve(residual, direction_); });
