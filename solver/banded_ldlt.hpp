@@ -9,14 +9,14 @@
 #include <span>
 #include <vector>
 
+#include "solver/tile.hpp"
+
 namespace myowave::solver {
 
 enum class Factorization { positive_definite, indefinite, failed };
 
 class BandedLdlt {
  public:
-  static constexpr int tile_width = 8;  // doubles of the widest vector register
-
   // Pattern of the lower triangle in compressed rows, columns ascending. It is copied.
   BandedLdlt(std::span<const int> row_begin, std::span<const int> column);
 
@@ -30,13 +30,6 @@ class BandedLdlt {
   void solve(std::span<const double> rhs, std::span<double> solution);
 
  private:
-  // Column by column: entry (r, q) at 8 q + r.
-  struct alignas(64) Tile {
-    double at[tile_width * tile_width];
-  };
-  struct alignas(64) Numbers {
-    double at[tile_width];
-  };
   // Where a value of the pattern goes in its column of tiles.
   struct Place {
     int slot, entry;
@@ -50,15 +43,15 @@ class BandedLdlt {
   void factorize_below(int K, int offset);
 
   int n_ = 0;
-  int tiles_ = 0;                       // in the diagonal, the last one filled up with ones
-  int reach_ = 0;                       // tiles below the diagonal one that the band touches
-  std::vector<int> place_begin_;        // (tiles + 1)
-  std::vector<Place> place_;            // by tile column
-  std::vector<Tile> L_;                 // (tiles, reach + 1): tile (K + offset, K); the inverse at offset 0
-  std::vector<Tile> inverse_rows_;      // (tiles): the same inverse, row by row
-  std::vector<Numbers> D_, inverse_D_;  // (tiles)
-  std::vector<Tile> scaled_row_;        // (reach): D L^T of the row of tiles under work
-  std::vector<Numbers> x_;              // (tiles + reach): the vector under work, then zeros
+  int tiles_ = 0;                   // in the diagonal, the last one filled up with ones
+  int reach_ = 0;                   // tiles below the diagonal one that the band touches
+  std::vector<int> place_begin_;    // (tiles + 1)
+  std::vector<Place> place_;        // by tile column
+  std::vector<Tile> L_;             // (tiles, reach + 1): tile (K + offset, K); the inverse at offset 0
+  std::vector<Tile> inverse_rows_;  // (tiles): the same inverse, row by row
+  std::vector<TileVector> D_, inverse_D_;  // (tiles)
+  std::vector<Tile> scaled_row_;           // (reach): D L^T of the row of tiles under work
+  std::vector<TileVector> x_;              // (tiles + reach): the vector under work, then zeros
 };
 
 }  // namespace myowave::solver
