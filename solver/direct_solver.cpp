@@ -17,11 +17,10 @@ namespace myowave::solver {
 
 namespace {
 
-void check(const cholmod_common& common, const char* what) {
-  if (common.status >= CHOLMOD_OK) return;
-  if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-  throw std::runtime_error("sparse " + std::string(what) + ": CHOLMOD status " +
-                           std::to_string(common.status));
+void check(int status, const char* what) {
+  if (status >= CHOLMOD_OK) return;
+  if (status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw std::runtime_error("sparse " + std::string(what) + ": CHOLMOD status " + std::to_string(status));
 }
 
 // The pattern as CHOLMOD sees it: rows of the lower triangle are columns of the upper one.
@@ -67,9 +66,10 @@ Supernodes find_supernodes(std::span<const int> row_begin_in, std::span<const in
     result = {take(factor->Perm, factor->n), take(factor->super, factor->nsuper + 1),
               take(factor->pi, factor->nsuper + 1), take(factor->s, factor->ssize)};
   }
+  const int status = common.status;
   cholmod_free_factor(&factor, &common);
   cholmod_finish(&common);
-  check(common, "analysis");
+  check(status, "analysis");
   return result;
 }
 
@@ -96,7 +96,7 @@ struct Cholmod {
     factor = cholmod_analyze(&matrix, &common);
     matrix.xtype = CHOLMOD_REAL;
     try {
-      check(common, "analysis");
+      check(common.status, "analysis");
     } catch (...) {
       cholmod_finish(&common);
       throw;
@@ -116,7 +116,7 @@ struct Cholmod {
   Factorization factorize(std::span<const double> values) {
     matrix.x = const_cast<double*>(values.data());  // only read
     cholmod_factorize(&matrix, factor, &common);
-    check(common, "factorisation");
+    check(common.status, "factorisation");
     if (common.status != CHOLMOD_OK || factor->minor != factor->n) return Factorization::failed;
     // D stands on the diagonal of L.
     const auto* begin = static_cast<const int*>(factor->p);
@@ -138,16 +138,15 @@ struct Cholmod {
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
     cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &x, nullptr, &y, &e, &common);
-    check(common, "solve");
+    check(common.status, "solve");
     std::copy_n(static_cast<const double*>(x->x), solution.size(), solution.begin());
   }
 };
 
-// Entries below the diagonal up to which the band is used. Factorisation and solve by band take 0.55 of
-// the multifrontal time at 25 x 25 elements (54 entries), 0.95 at 50 x 50, 1.8 at 100 x 100, and the
-// memory of the band grows as the cube of the elements a side. The simplicial LDL^T takes 13 times the
-// multifrontal time at 100 x 100 and 20 times at 250 x 250.
-constexpr int widest_band = 112;
+// Entries below the diagonal up to which the band is used. Factorisation and solve by band take 0.65 of
+// the multifrontal time at 25 x 25 elements (54 entries), 0.95 at 40 x 40, 1.2 at 50 x 50, 2.3 at
+// 100 x 100. The simplicial LDL^T takes 16 times the multifrontal time at 100 x 100, 27 at 250 x 250.
+constexpr int widest_band = 88;
 
 }  // namespace
 

@@ -58,14 +58,14 @@ MultifrontalLdlt::MultifrontalLdlt(std::span<const int> row_begin, std::span<con
     return front.column_tiles * width +
            static_cast<int>(std::lower_bound(begin, begin + front.rows, r) - begin);
   };
-  parent_place_.resize(row_.size());
+  parent_offset_.resize(row_.size());
   std::size_t depth = 0, deepest = 0;
   std::vector<std::size_t> children_depth(count, 0);
   for (int s = 0; s < count; ++s) {
     Front& front = fronts_[s];
     front.parent = front.rows > 0 ? front_of[row_[front.row_begin]] : -1;
     for (int k = front.row_begin; k < front.row_begin + front.rows; ++k)
-      parent_place_[k] = place_of(fronts_[front.parent], row_[k]);
+      parent_offset_[k] = row_offset(place_of(fronts_[front.parent], row_[k]));
     deepest = std::max(deepest, depth + front.update_tiles());
     depth += front.update_tiles() - children_depth[s];
     if (front.parent >= 0) children_depth[front.parent] += front.update_tiles();
@@ -130,19 +130,22 @@ Factorization MultifrontalLdlt::factorize(std::span<const double> values) {
 
 void MultifrontalLdlt::add_to_parent(const Front& child, const Tile* update, const Front& parent, Tile* L,
                                      Tile* parent_update) {
-  const int* const place = parent_place_.data() + child.row_begin;
+  constexpr int entries = width * width;
+  const int* const offset = parent_offset_.data() + child.row_begin;
   const int update_tiles = child.tiles - child.column_tiles;
   for (int a = 0; a < child.rows; ++a) {
-    const int K = place[a] / width;
+    const int K = offset[a] / entries;
     Tile* const column =
         K < parent.column_tiles
             ? L + column_begin(parent.tiles, K)
             : parent_update + column_begin(parent.tiles - parent.column_tiles, K - parent.column_tiles);
-    double* const to = column->at + place[a] % width * width - K * width * width;
+    double* const to = column->at + offset[a] % width * width - K * entries;
     const int k = a / width;
-    const double* const from =
-        update[column_begin(update_tiles, k)].at + a % width * width - k * width * width;
-    for (int b = a; b < child.rows; ++b) to[row_offset(place[b])] += from[row_offset(b)];
+    const double* from = update[column_begin(update_tiles, k)].at + a % width * width;
+    for (int first = k * width; first < child.rows; first += width, from += entries) {
+      const int end = std::min(first + width, child.rows);
+      for (int b = std::max(a, first); b < end; ++b) to[offset[b]] += from[b - first];
+    }
   }
 }
 

@@ -41,7 +41,7 @@ class MultifrontalLdlt {
     int first_tile;              // of its columns in D_
     std::size_t L_begin;         // its columns of tiles in L_
     int parent;                  // -1: none
-    int row_begin, rows;         // below, in row_ and parent_place_
+    int row_begin, rows;         // below, in row_ and parent_offset_
     int value_begin, value_end;  // in value_
     int columns, first_column;
     std::size_t update_tiles() const { return triangle(tiles - column_tiles); }
@@ -62,9 +62,9 @@ class MultifrontalLdlt {
   int n_ = 0;
   std::vector<int> permutation_;
   std::vector<Front> fronts_;
-  std::vector<int> row_;           // permuted, below the columns of each front
-  std::vector<int> parent_place_;  // the same in its parent's front
-  std::vector<Value> value_;       // by front
+  std::vector<int> row_;            // permuted, below the columns of each front
+  std::vector<int> parent_offset_;  // where these are in a column of tiles of the parent's front
+  std::vector<Value> value_;        // by front
   std::vector<Tile> L_, inverse_rows_;
   std::vector<TileVector> D_, inverse_D_;
   std::vector<Tile> updates_;  // a stack of what fronts leave for their parents
