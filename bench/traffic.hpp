@@ -57,15 +57,16 @@ constexpr Traffic tension_traffic() {
   return {16 * sizeof(Real), 4 * sizeof(double), 4 * sizeof(double), 4 * 19};
 }
 
-// An element: a node's position and the tension read, 8 + 36 numbers written and read again, and
-// about 18 slots of the tangent written with their lists of sources (4 + 4 B) read. Operations: 4
-// Gauss points with F 20, C 9, energy derivatives 40, D and S 60, A 130, tangent rows 4 x 24 and
-// 10 pairs of nodes x 12 and R 32.
-inline constexpr Traffic assemble_traffic{(2 + 4 + 44) * 8.0 + 36 * 8.0, (44 + 2 + 18) * 8.0,
-                                          (44 + 2 + 18) * 8.0, 4 * 507.0};
+// An element: a node's position and the tension read, 8 + 36 numbers written and read again, then 2
+// and 19 of a node, the latter read again with the source (4 B) of about 18 slots of the tangent.
+// Operations: 4 Gauss points with F 20, t and A 11, energy derivatives 40, P 16, A 70, rows 4 x 24, R
+// 24, and the 36 entries with 4 each.
+inline constexpr Traffic assemble_traffic{(2 + 4 + 44 + 19) * 8.0 + 18 * 4.0, (44 + 2 + 19 + 18) * 8.0,
+                                          (44 + 2 + 19 + 18) * 8.0, 4 * 420.0};
 
-// An element: positions and tension read, the energy written.
-inline constexpr Traffic energy_traffic{(2 + 4) * 8.0, 8, 8, 4 * 20 + 4 * 70.0};
+// An element: positions and tension read, energy and smallest J written. Operations: 4 corners, and 4
+// Gauss points of which the logarithm is 30.
+inline constexpr Traffic energy_traffic{(2 + 4) * 8.0, 2 * 8, 2 * 8, 4 * 20 + 4 * 95.0};
 
 // A node: V read; tips are rare.
 template <class Real>

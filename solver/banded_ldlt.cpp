@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace myowave::solver {
+using namespace tile;
 
 int BandedLdlt::bandwidth(std::span<const int> row_begin, std::span<const int> column) {
   int band = 0;
@@ -14,124 +15,114 @@ int BandedLdlt::bandwidth(std::span<const int> row_begin, std::span<const int> c
 
 BandedLdlt::BandedLdlt(std::span<const int> row_begin, std::span<const int> column)
     : n_(static_cast<int>(row_begin.size()) - 1),
-      band_(bandwidth(row_begin, column)),
-      width_(band_ + 2 * panel),
-      window_rows_(band_ + panel),
-      row_begin_(row_begin.begin(), row_begin.end()),
-      column_(column.begin(), column.end()),
-      window_(static_cast<std::size_t>(window_rows_) * width_),
-      panel_(static_cast<std::size_t>(panel) * width_),
-      L_(static_cast<std::size_t>(n_) * band_),
-      D_(n_) {}
-
-void BandedLdlt::load_row(int i, std::span<const double> values) {
-  double* row = window_row(i);
-  std::fill_n(row, width_, 0.0);
-  for (int slot = row_begin_[i]; slot < row_begin_[i + 1]; ++slot)
-    row[column_[slot] - i + band_] = values[slot];
+      tiles_((n_ + width - 1) / width),
+      reach_((bandwidth(row_begin, column) + width - 1) / width),
+      place_begin_(tiles_ + 1),
+      place_(column.size()),
+      L_(static_cast<std::size_t>(tiles_) * (reach_ + 1)),
+      inverse_rows_(tiles_),
+      D_(tiles_),
+      inverse_D_(tiles_),
+      scaled_row_(reach_),
+      x_(tiles_ + reach_) {
+  for (const int j : column) ++place_begin_[j / width + 1];
+  for (int K = 0; K < tiles_; ++K) place_begin_[K + 1] += place_begin_[K];
+  std::vector<int> next(place_begin_.begin(), place_begin_.end() - 1);
+  for (int i = 0; i < n_; ++i) {
+    for (int slot = row_begin[i]; slot < row_begin[i + 1]; ++slot) {
+      const int j = column[slot], K = j / width;
+      place_[next[K]++] = {slot, ((i / width - K) * width + j % width) * width + i % width};
+    }
+  }
 }
 
 Factorization BandedLdlt::factorize(std::span<const double> values) {
-  int loaded = 0;
-  for (int first = 0; first < n_; first += panel) {
-    const int columns = std::min(panel, n_ - first);
-    const int rows = std::min(band_ + panel, n_ - first);  // that the panel touches
-    for (; loaded < first + rows; ++loaded) load_row(loaded, values);
-    if (!factorize_panel(first, columns, rows)) return Factorization::failed;
-    if (columns == panel) update_behind_panel(first, rows);
+  bool positive = true;
+  for (int K = 0; K < tiles_; ++K) {
+    load(K, values);
+    scale_row(K);
+    if (!factorize_diagonal(K)) return Factorization::failed;
+    // Two tiles at a time: sixteen sums hide the latency of their additions.
+    int offset = 1;
+    for (; offset < reach_; offset += 2) factorize_below<2>(K, offset);
+    if (offset == reach_) factorize_below<1>(K, offset);
+    for (int q = 0; q < width; ++q) positive = positive && D_[K].at[q] > 0;
   }
-  return std::all_of(D_.begin(), D_.end(), [](double d) { return d > 0; }) ? Factorization::positive_definite
-                                                                           : Factorization::indefinite;
+  return positive ? Factorization::positive_definite : Factorization::indefinite;
 }
 
-// Columns first ... first + columns - 1 of L and D; false where a pivot is zero or not finite.
-bool BandedLdlt::factorize_panel(int first, int columns, int rows) {
-  for (int q = 0; q < columns; ++q) {
-    double* const column = panel_.data() + static_cast<std::size_t>(q) * width_;
-    std::fill_n(column, q, 0.0);
-    const int end = std::min(rows, q + band_ + 1);
-    for (int r = q; r < end; ++r) column[r] = window_row(first + r)[q - r + band_];
-    std::fill(column + end, column + rows, 0.0);
-    for (int s = 0; s < q; ++s) {
-      const double* const earlier = panel_.data() + static_cast<std::size_t>(s) * width_;
-      const double factor = D_[first + s] * earlier[q];
-#pragma omp simd
-      for (int r = q; r < rows; ++r) column[r] -= factor * earlier[r];
-    }
-    const double pivot = column[q];
-    if (pivot == 0 || !std::isfinite(pivot)) return false;
-    D_[first + q] = pivot;
-    const double inverse = 1 / pivot;
-    double* const below = L_.data() + static_cast<std::size_t>(first + q) * band_;
-#pragma omp simd
-    for (int r = q + 1; r < rows; ++r) column[r] *= inverse;
-    column[q] = 1;
-    std::fill_n(std::copy(column + q + 1, column + end, below), band_ - (end - q - 1), 0.0);
-  }
-  return true;
+void BandedLdlt::load(int K, std::span<const double> values) {
+  Tile* const column = tile_column(K);
+  for (int offset = 0; offset <= reach_; ++offset)
+    for (int q = 0; q < width; ++q) lanes(column[offset].at + q * width) = Lanes{};
+  double* const entries = column->at;
+  for (int k = place_begin_[K]; k < place_begin_[K + 1]; ++k)
+    entries[place_[k].entry] = values[place_[k].slot];
+  for (int q = n_ - width * K; q < width; ++q) entries[q * width + q] = 1;
 }
 
-namespace {
-
-// Rows a and b of the window, from column 0 of both on: a -= sum_q x_q P_q, b -= sum_q y_q P_q.
-template <int panel>
-void update_two_rows(double* __restrict a, double* __restrict b, const double* __restrict P, int width,
-                     const double* x, const double* y, int count) {
-#pragma omp simd
-  for (int t = 0; t < count; ++t) {
-    double from_a = a[t], from_b = b[t];
-    for (int q = 0; q < panel; ++q) {
-      from_a -= x[q] * P[q * width + t];
-      from_b -= y[q] * P[q * width + t];
-    }
-    a[t] = from_a;
-    b[t] = from_b;
-  }
+// D(J) L(K, J)^T of the tiles before the diagonal.
+void BandedLdlt::scale_row(int K) {
+  const int first = std::max(0, K - reach_);
+  for (int J = first; J < K; ++J) scale(tile_column(J)[K - J].at, D_[J].at, scaled_row_[J - first].at);
 }
 
-}  // namespace
+// Tile (K, K): its D, and the inverse of its L in place of L. false where a pivot is zero or not finite.
+bool BandedLdlt::factorize_diagonal(int K) {
+  double* const diagonal = tile_column(K)->at;
+  const int first = std::max(0, K - reach_);
+  TileStack<1> stack;
+  stack.load(diagonal);
+  for (int J = first; J < K; ++J)
+    subtract_product<1>(stack, tile_column(J)[K - J].at, scaled_row_[J - first].at);
+  stack.store(diagonal);
 
-// A(i, j) -= sum over the panel's columns of L(i, q) D(q) L(j, q), behind the panel, j <= i. Rows go in
-// pairs; the upper one's entry right of its diagonal is scratch.
-void BandedLdlt::update_behind_panel(int first, int rows) {
-  double x[panel], y[panel];
-  for (int r = panel; r < rows; r += 2) {
-    const bool pair = r + 1 < rows;
-    for (int q = 0; q < panel; ++q) {
-      const double* const column = panel_.data() + static_cast<std::size_t>(q) * width_;
-      x[q] = D_[first + q] * column[r];
-      y[q] = pair ? D_[first + q] * column[r + 1] : 0;
-    }
-    double* const a = window_row(first + r) + panel - r + band_;
-    if (pair) {
-      double* const b = window_row(first + r + 1) + panel - r - 1 + band_;
-      update_two_rows<panel>(a, b, panel_.data() + panel, width_, x, y, r + 2 - panel);
-    } else {
-      for (int t = 0; t <= r - panel; ++t)
-        for (int q = 0; q < panel; ++q)
-          a[t] -= x[q] * panel_[static_cast<std::size_t>(q) * width_ + panel + t];
-    }
-  }
+  return tile::factorize_diagonal(diagonal, D_[K].at, inverse_D_[K].at, inverse_rows_[K].at);
 }
 
-void BandedLdlt::solve(std::span<const double> rhs, std::span<double> solution) const {
-  std::copy(rhs.begin(), rhs.end(), solution.begin());
-  double* const x = solution.data();
-  for (int k = 0; k < n_; ++k) {
-    const double* const L = L_.data() + static_cast<std::size_t>(k) * band_;
-    const int count = std::min(band_, n_ - 1 - k);
-    const double value = x[k];
-#pragma omp simd
-    for (int d = 0; d < count; ++d) x[k + 1 + d] -= L[d] * value;
+// Tiles (K + offset, K), `rows` of them: L = (A - sum of earlier products) L(K, K)^-T D(K)^-1.
+template <int rows>
+void BandedLdlt::factorize_below(int K, int offset) {
+  double* const tiles = tile_column(K)[offset].at;
+  const int first = std::max(0, K - reach_);
+  TileStack<rows> stack;
+  stack.load(tiles);
+  int J = K + offset - reach_;
+  // The lower tile has one product less: the band ends above it.
+  if (rows > 1 && J >= first && J < K)
+    subtract_product<1>(stack, tile_column(J)[K + offset - J].at, scaled_row_[J - first].at);
+  if (rows > 1) ++J;
+  for (J = std::max(J, first); J < K; ++J)
+    subtract_product<rows>(stack, tile_column(J)[K + offset - J].at, scaled_row_[J - first].at);
+
+  divide(stack, tile_column(K)->at, inverse_D_[K].at, tiles);
+}
+
+void BandedLdlt::solve(std::span<const double> rhs, std::span<double> solution) {
+  double* const x = x_.data()->at;
+  std::copy(rhs.begin(), rhs.end(), x);
+  std::fill_n(x + n_, width * x_.size() - n_, 0.0);
+  for (int K = 0; K < tiles_; ++K) {
+    const Tile* const column = tile_column(K);
+    double* const y = x + K * width;
+    lanes(y) = times(column->at, y);
+    for (int offset = 1; offset <= reach_; ++offset) lanes(y + offset * width) -= times(column[offset].at, y);
   }
-  for (int k = n_ - 1; k >= 0; --k) {
-    const double* const L = L_.data() + static_cast<std::size_t>(k) * band_;
-    const int count = std::min(band_, n_ - 1 - k);
-    double sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (int d = 0; d < count; ++d) sum += L[d] * x[k + 1 + d];
-    x[k] = x[k] / D_[k] - sum;
+  for (int K = tiles_ - 1; K >= 0; --K) {
+    const Tile* const column = tile_column(K);
+    double* const y = x + K * width;
+    Lanes product[width] = {};
+    for (int offset = 1; offset <= reach_; ++offset) {
+#pragma GCC unroll 8
+      for (int q = 0; q < width; ++q)
+        product[q] += lanes(column[offset].at + q * width) * lanes(y + offset * width);
+    }
+    alignas(64) double z[width];
+    lanes(z) = lanes(y) * lanes(inverse_D_[K].at);
+    subtract_sums(product, z);
+    lanes(y) = times(inverse_rows_[K].at, z);
   }
+  std::copy_n(x, solution.size(), solution.begin());
 }
 
 }  // namespace myowave::solver

@@ -1,13 +1,15 @@
-// A = L D L^T of a symmetric band matrix, without pivoting, in panels of eight columns.
+// A = L D L^T of a symmetric band matrix, without pivoting, in tiles of 8 x 8.
 //
 // A small mesh numbered row by row has a narrow band: 55 below the diagonal at 25 x 25 elements.
-// Filling the whole band costs more operations than a fill-reducing ordering, but they are long
-// vector operations on a window that stays in the first-level cache.
+// Filling the whole band costs more operations than a fill-reducing ordering, but they are products
+// of tiles that stay in registers and read the last columns of tiles from the first-level cache.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "solver/tile.hpp"
 
 namespace myowave::solver {
 
@@ -25,25 +27,31 @@ class BandedLdlt {
   Factorization factorize(std::span<const double> values);
 
   // solution = A^-1 rhs with the last factor; both of length n, and they may be the same.
-  void solve(std::span<const double> rhs, std::span<double> solution) const;
+  void solve(std::span<const double> rhs, std::span<double> solution);
 
  private:
-  static constexpr int panel = 8;
+  // Where a value of the pattern goes in its column of tiles.
+  struct Place {
+    int slot, entry;
+  };
 
-  double* window_row(int i) { return window_.data() + static_cast<std::size_t>(i % window_rows_) * width_; }
-  void load_row(int i, std::span<const double> values);
-  bool factorize_panel(int first, int columns, int rows);
-  void update_behind_panel(int first, int rows);
+  Tile* tile_column(int K) { return L_.data() + static_cast<std::size_t>(K) * (reach_ + 1); }
+  void load(int K, std::span<const double> values);
+  void scale_row(int K);
+  bool factorize_diagonal(int K);
+  template <int rows>
+  void factorize_below(int K, int offset);
 
   int n_ = 0;
-  int band_ = 0;         // entries below the diagonal
-  int width_ = 0;        // of a row of the window: band and diagonal, padded
-  int window_rows_ = 0;  // rows that one panel touches
-  std::vector<int> row_begin_, column_;
-  std::vector<double> window_;  // row i at i mod window_rows_, entry (i, j) at j - i + band_
-  std::vector<double> panel_;   // (panel, width): column q of L from the panel's first row on
-  std::vector<double> L_;       // (n, band): entry (k + 1 + d, k) at k band_ + d
-  std::vector<double> D_;       // (n)
+  int tiles_ = 0;                   // in the diagonal, the last one filled up with ones
+  int reach_ = 0;                   // tiles below the diagonal one that the band touches
+  std::vector<int> place_begin_;    // (tiles + 1)
+  std::vector<Place> place_;        // by tile column
+  std::vector<Tile> L_;             // (tiles, reach + 1): tile (K + offset, K); the inverse at offset 0
+  std::vector<Tile> inverse_rows_;  // (tiles): the same inverse, row by row
+  std::vector<TileVector> D_, inverse_D_;  // (tiles)
+  std::vector<Tile> scaled_row_;           // (reach): D L^T of the row of tiles under work
+  std::vector<TileVector> x_;              // (tiles + reach): the vector under work, then zeros
 };
 
 }  // namespace myowave::solver

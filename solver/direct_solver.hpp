@@ -1,5 +1,5 @@
 // LDL^T factorisation of symmetric matrices of one pattern, definite or not: as a band where that is
-// faster, else sparse with a fill-reducing ordering (CHOLMOD).
+// faster, else multifrontal with an ordering by nested dissection. `sparse` is CHOLMOD's own.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace myowave::solver {
 
 class DirectSolver {
  public:
-  enum class Method { fastest, banded, sparse };
+  enum class Method { fastest, banded, multifrontal, sparse };
 
   // Pattern of the lower triangle in compressed rows, columns ascending. It is analysed once; the
   // spans need not outlive the call.

@@ -35,7 +35,6 @@ elastic::Membrane membrane_of(const MechanicsSettings& settings) {
 template <class ExecutionSpace>
 struct Equilibrium<ExecutionSpace>::Impl {
   using Tension = GaussTension<MemorySpace>;
-  using Numbers = elastic::Numbers<MemorySpace>;
 
   elastic::ElementGrid grid;
   MechanicsSettings settings;
@@ -50,11 +49,13 @@ struct Equilibrium<ExecutionSpace>::Impl {
   Nodes<MemorySpace> tried;
   Nodes<MemorySpace> direction;
   typename Nodes<MemorySpace>::host_mirror_type direction_host;
-  Numbers energy;  // by element
-  typename Numbers::host_mirror_type energy_host;
+  elastic::Rows<MemorySpace> energy;  // and smallest J, by element
+  typename elastic::Rows<MemorySpace>::host_mirror_type energy_host;
 
-  Tension solved_Ta;            // of `nodes`; zero for the undeformed sheet
-  Tension mixed_Ta;             // of a part of a ramp
+  Tension solved_Ta;  // of `nodes`; zero for the undeformed sheet
+  Tension mixed_Ta;   // of a part of a ramp
+  // The solver's last factor is of the tangent at `start`, under the tension of before.
+  bool start_has_factor = false;
   bool in_equilibrium = false;  // false: `nodes` are undeformed
 
   Impl(const ExecutionSpace& space, const elastic::ElementGrid& grid_in, const MechanicsSettings& settings_in)
@@ -70,7 +71,7 @@ struct Equilibrium<ExecutionSpace>::Impl {
         tried("myowave::elastic::tried_nodes", grid.nodes()),
         direction("myowave::elastic::direction", grid.nodes()),
         direction_host(Kokkos::create_mirror_view(direction)),
-        energy("myowave::elastic::element_energy", grid.elements()),
+        energy("myowave::elastic::element_energy", 2, grid.elements()),
         energy_host(Kokkos::create_mirror_view(energy)),
         solved_Ta("myowave::elastic::solved_Ta", grid.elements()),
         mixed_Ta("myowave::elastic::mixed_Ta", grid.elements()) {}
@@ -97,11 +98,14 @@ struct Equilibrium<ExecutionSpace>::Impl {
 
     // The sum over the elements runs on the host: one order on every backend.
     Trial trial_at(const Nodes<MemorySpace>& positions) {
-      Trial trial;
-      trial.min_J = elastic::element_energies(space, sheet.membrane, sheet.grid, positions, Ta, sheet.energy);
+      elastic::element_energies(space, sheet.membrane, sheet.grid, positions, Ta, sheet.energy);
       Kokkos::deep_copy(space, sheet.energy_host, sheet.energy);
       space.fence("myowave::elastic::energy");
-      for (std::size_t e = 0; e < sheet.energy_host.extent(0); ++e) trial.energy += sheet.energy_host(e);
+      Trial trial{.energy = 0, .min_J = sheet.energy_host(1, 0)};
+      for (int e = 0; e < sheet.grid.elements(); ++e) {
+        trial.energy += sheet.energy_host(0, e);
+        trial.min_J = std::min(trial.min_J, sheet.energy_host(1, e));
+      }
       return trial;
     }
   };
@@ -130,7 +134,8 @@ struct Equilibrium<ExecutionSpace>::Impl {
     const NewtonSettings newton{.tolerance = settings.tolerance,
                                 .residual_unit = stress_unit * grid.h,
                                 .energy_unit = undeformed_energy * grid.elements() * grid.h * grid.h};
-    effort.add(Newton(problem, solver, newton).minimise());
+    effort.add(Newton(problem, solver, newton).minimise(start_has_factor));
+    start_has_factor = effort.last.converged && (start_has_factor || effort.last.factorizations > 0);
     return effort.last.converged;
   }
 
@@ -163,7 +168,9 @@ struct Equilibrium<ExecutionSpace>::Impl {
     const int middle = middle_node(grid);
     const auto pins = Kokkos::create_mirror_view_and_copy(
         Kokkos::HostSpace{}, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
-    if (pins(1, 0) < pins(0, 0)) elastic::turn_around(space, middle, current);
+    if (pins(1, 0) >= pins(0, 0)) return;
+    elastic::turn_around(space, middle, current);
+    start_has_factor = false;
   }
 
   // Errors: NumericalFailure, always.
@@ -227,7 +234,8 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
           .ramp_steps = effort.ramp_steps,
           .residual = effort.last.residual,
           .energy = effort.last.energy,
-          .min_J = effort.last.min_J};
+          .min_J = effort.last.min_J,
+          .time = effort.time};
 }
 
 template <class ExecutionSpace>
@@ -241,6 +249,7 @@ void Equilibrium<ExecutionSpace>::reset(const ExecutionSpace& space) {
   Kokkos::deep_copy(space, impl_->solved_Ta, 0.0);
   space.fence("myowave::elastic::reset");
   impl_->in_equilibrium = false;
+  impl_->start_has_factor = false;
 }
 
 template <class ExecutionSpace>

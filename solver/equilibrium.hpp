@@ -7,6 +7,7 @@
 
 #include "kernels/base/views.hpp"
 #include "kernels/elastic/element_grid.hpp"
+#include "solver/newton.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::solver {
@@ -20,6 +21,7 @@ struct SolveReport {
   double residual = 0;          // max|R_free| / (10 kPa h) at the end
   double energy = 0;            // Pi at the end, kPa x area
   double min_J = 0;             // smallest det F at any corner of any element
+  PhaseTimes time;
 };
 
 template <class ExecutionSpace>

@@ -15,6 +15,7 @@ struct Effort {
   std::int64_t iterations = 0, factorizations = 0, shifts = 0, halvings = 0, ramp_steps = 0;
   double largest_shift = 0;  // kPa
   double ramp_reached = -1;  // fraction of the tension; < 0: no ramp was tried
+  PhaseTimes time;
   NewtonReport last;
 
   void add(const NewtonReport& report) {
@@ -23,6 +24,7 @@ struct Effort {
     shifts += report.shifts;
     halvings += report.halvings;
     largest_shift = std::max(largest_shift, report.largest_shift);
+    time += report.time;
     last = report;
   }
 };

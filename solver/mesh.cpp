@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "kernels/elastic/assemble.hpp"
 #include "kernels/elastic/element.hpp"
 #include "solver/error.hpp"
 
@@ -71,6 +72,29 @@ void build_gather(Mesh& mesh) {
   mesh.slot_source.resize(mesh.slot_begin.back());
   std::vector<int> next(mesh.slot_begin.begin(), mesh.slot_begin.end() - 1);
   for_each_source(mesh, [&](int slot, int source) { mesh.slot_source[next[slot]++] = source; });
+}
+
+void build_node_entries(Mesh& mesh) {
+  using elastic::NodalTangent;
+  const auto& grid = mesh.grid;
+  mesh.slot_node_entry.resize(mesh.column.size());
+  const auto place = [&](int n, int i, int m, int j, int entry) {
+    const int row = mesh.unknown[2 * n + i], column = mesh.unknown[2 * m + j];
+    if (row >= 0 && column >= 0) mesh.slot_node_entry[slot_of(mesh, row, column)] = entry * grid.nodes() + n;
+  };
+  for (int I = 0; I <= grid.rows; ++I) {
+    for (int J = 0; J <= grid.columns; ++J) {
+      const int n = grid.node(I, J);
+      for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j <= i; ++j) place(n, i, n, j, NodalTangent::self + i + j);
+        for (int k = 0; k < NodalTangent::neighbours; ++k) {
+          const int K = I + NodalTangent::row(k), L = J + NodalTangent::column(k);
+          if (K < 0 || L < 0 || L > grid.columns) continue;
+          for (int j = 0; j < 2; ++j) place(n, i, grid.node(K, L), j, 4 * k + 2 * i + j);
+        }
+      }
+    }
+  }
 }
 
 // Integral of grad u : grad v over one element, for the tangent entry of dofs (a, b).
@@ -139,6 +163,7 @@ Mesh make_mesh(const elastic::ElementGrid& grid, Edges edges) {
   }
   build_pattern(mesh);
   build_gather(mesh);
+  build_node_entries(mesh);
   build_gradient_product(mesh);
   return mesh;
 }

@@ -19,6 +19,10 @@ struct Mesh {
   std::vector<int> row_begin;  // unknowns + 1
   std::vector<int> column;     // a slot each
 
+  // By slot, where it stands among the entries of its node: entry nodes + node, see
+  // elastic::NodalTangent.
+  std::vector<int> slot_node_entry;
+
   // Slot s sums the element tangent entries slot_source[slot_begin[s] ... slot_begin[s + 1]), each
   // 36 element + entry of the element's lower triangle.
   std::vector<int> slot_begin;

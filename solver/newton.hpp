@@ -16,15 +16,22 @@
 // number of elements. With I in its place the motions of the sheet as a whole, whose share of K
 // falls with the number of elements, are held back: 100 x 100 elements do not converge.
 //
+// Where the solver has the factor of an equilibrium and the forces on it have changed since, the first
+// step is taken with that factor: it goes along the path of equilibria. The tangent under the new
+// forces is mostly indefinite at the old positions, and the two or three steps that its directions
+// take to come near the new equilibrium are saved.
+//
 // Everything here is serial and in a fixed order: the number of threads changes no decision.
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/direct_solver.hpp"
@@ -46,6 +53,18 @@ struct NewtonSettings {
   double least_shift = 1;  // kPa; at or below, mu = 0
 };
 
+// Where the time went, s.
+struct PhaseTimes {
+  double assemble = 0, factorize = 0, triangular = 0, energy = 0;
+  PhaseTimes& operator+=(const PhaseTimes& other) {
+    assemble += other.assemble;
+    factorize += other.factorize;
+    triangular += other.triangular;
+    energy += other.energy;
+    return *this;
+  }
+};
+
 struct NewtonReport {
   bool converged = false;
   std::int64_t iterations = 0;  // accepted steps
@@ -56,6 +75,7 @@ struct NewtonReport {
   double residual = std::numeric_limits<double>::infinity();
   double energy = 0;
   double min_J = 0;
+  PhaseTimes time;
 };
 
 // Energy and smallest corner J at some positions.
@@ -79,19 +99,24 @@ class Newton {
   Newton(Problem& problem, DirectSolver& solver, const NewtonSettings& settings)
       : problem_(problem), solver_(solver), settings_(settings) {}
 
-  NewtonReport minimise() {
+  // `start_has_factor`: the solver's last factor is of the tangent at an equilibrium where this starts.
+  NewtonReport minimise(bool start_has_factor = false) {
     NewtonReport report;
-    Trial current = problem_.evaluate();
+    Trial current = timed(report.time.energy, [&] { return problem_.evaluate(); });
     double shift = 0;
     while (true) {
       report.energy = current.energy;
       report.min_J = current.min_J;
       if (!current.admissible()) return report;
-      problem_.linearize();
+      timed(report.time.assemble, [&] { problem_.linearize(); });
       report.residual = largest_residual() / settings_.residual_unit;
       report.converged = report.residual < settings_.tolerance;
       if (report.converged || report.iterations == settings_.max_iterations) return report;
 
+      if (std::exchange(start_has_factor, false) && descend(current, report)) {
+        ++report.iterations;
+        continue;
+      }
       while (!step(current, shift, report)) {
         shift = std::max(settings_.shift_growth * shift, settings_.first_shift);
         report.largest_shift = std::max(report.largest_shift, shift);
@@ -104,16 +129,22 @@ class Newton {
   }
 
  private:
-  // One direction and its line search; true where a step was accepted.
+  // A step with a new factor; true where one was accepted.
   bool step(Trial& current, double shift, NewtonReport& report) {
     ++report.factorizations;
     if (shift > 0) ++report.shifts;
-    const Factorization factorization = solver_.factorize(problem_.tangent(shift));
+    const Factorization factorization =
+        timed(report.time.factorize, [&] { return solver_.factorize(problem_.tangent(shift)); });
     if (factorization == Factorization::failed) return false;
     if (factorization == Factorization::indefinite && report.residual < settings_.near_solution) return false;
+    return descend(current, report);
+  }
+
+  // The direction of the last factor and its line search; true where a step was accepted.
+  bool descend(Trial& current, NewtonReport& report) {
     const auto residual = problem_.residual();
     direction_.resize(residual.size());
-    solver_.solve(residual, direction_);
+    timed(report.time.triangular, [&] { solver_.solve(residual, direction_); });
     double slope = 0;
     for (std::size_t a = 0; a < residual.size(); ++a) {
       direction_[a] = -direction_[a];
@@ -124,7 +155,7 @@ class Newton {
     const double noise = settings_.energy_noise * (std::abs(current.energy) + settings_.energy_unit);
     double length = 1;
     for (int halving = 0; halving <= settings_.max_halvings; ++halving, length /= 2) {
-      const Trial trial = problem_.move(length);
+      const Trial trial = timed(report.time.energy, [&] { return problem_.move(length); });
       if (trial.admissible() && trial.energy <= current.energy + settings_.armijo * length * slope + noise) {
         problem_.accept();
         current = trial;
@@ -134,6 +165,17 @@ class Newton {
     }
     report.halvings += settings_.max_halvings;
     return false;
+  }
+
+  template <class Phase>
+  static auto timed(double& seconds, const Phase& phase) {
+    using Clock = std::chrono::steady_clock;
+    struct Stop {
+      double& seconds;
+      Clock::time_point start = Clock::now();
+      ~Stop() { seconds += std::chrono::duration<double>(Clock::now() - start).count(); }
+    } const stop{seconds};
+    return phase();
   }
 
   // Not-a-number wins: it must not pass for a small residual.

@@ -21,10 +21,9 @@ class SparseSystem {
   SparseSystem(const ExecutionSpace& space, const Mesh& mesh)
       : unknown_(mesh.unknown),
         gradient_product_(mesh.gradient_product),
-        slot_begin_(to_device(space, "myowave::elastic::slot_begin", mesh.slot_begin)),
-        slot_source_(to_device(space, "myowave::elastic::slot_source", mesh.slot_source)),
-        element_residual_("myowave::elastic::element_residual", mesh.grid.elements()),
-        element_tangent_("myowave::elastic::element_tangent", mesh.grid.elements()),
+        slot_source_(to_device(space, "myowave::elastic::slot_source", mesh.slot_node_entry)),
+        element_("myowave::elastic::element", elastic::linearization_entries, elastic::places(mesh.grid)),
+        nodal_tangent_("myowave::elastic::nodal_tangent", elastic::NodalTangent::entries, mesh.grid.nodes()),
         nodal_residual_("myowave::elastic::nodal_residual", mesh.grid.nodes()),
         values_("myowave::elastic::tangent", mesh.column.size()),
         nodal_residual_host_(Kokkos::create_mirror_view(nodal_residual_)),
@@ -35,9 +34,9 @@ class SparseSystem {
   void assemble(const ExecutionSpace& space, const elastic::Membrane& membrane,
                 const elastic::ElementGrid& grid, const Nodes<MemorySpace>& nodes,
                 const GaussTension<MemorySpace>& Ta) {
-    elastic::linearize_elements(space, membrane, grid, nodes, Ta, element_residual_, element_tangent_);
-    elastic::gather_residual(space, grid, element_residual_, nodal_residual_);
-    elastic::gather_tangent(space, slot_begin_, slot_source_, element_tangent_, values_);
+    elastic::linearize_elements(space, membrane, grid, nodes, Ta, element_);
+    elastic::gather_nodes(space, grid, element_, nodal_residual_, nodal_tangent_);
+    elastic::gather_tangent(space, slot_source_, nodal_tangent_, values_);
     Kokkos::deep_copy(space, nodal_residual_host_, nodal_residual_);
     Kokkos::deep_copy(space, values_host_, values_);
     space.fence("myowave::elastic::assemble");
@@ -81,9 +80,9 @@ class SparseSystem {
 
   std::vector<int> unknown_;
   std::vector<double> gradient_product_;
-  elastic::Indices<MemorySpace> slot_begin_, slot_source_;
-  elastic::ElementResidual<MemorySpace> element_residual_;
-  elastic::ElementTangent<MemorySpace> element_tangent_;
+  elastic::Indices<MemorySpace> slot_source_;
+  elastic::Rows<MemorySpace> element_;
+  elastic::Rows<MemorySpace> nodal_tangent_;
   Nodes<MemorySpace> nodal_residual_;
   elastic::Numbers<MemorySpace> values_;
   typename Nodes<MemorySpace>::host_mirror_type nodal_residual_host_;

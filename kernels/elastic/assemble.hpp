@@ -1,19 +1,22 @@
 // Launchers over the elements: energy, linearization, and their gathers to nodes and matrix slots.
 //
-// Elements write arrays of their own; every node and every matrix slot then sums its contributions
-// in a fixed order. No atomics: the bits do not depend on the number of threads.
+// Elements write arrays of their own; every node then sums its contributions in a fixed order. No
+// atomics: the bits do not depend on the number of threads.
 //
-// | view             | shape          | unit         |                                                   |
-// |------------------|----------------|--------------|---------------------------------------------------|
-// | nodes            | (nodes, 2)     | length       | positions                                         |
-// | Ta               | (elements, 4)  | kPa          | tension at the Gauss points                       |
-// | energy           | (elements)     | kPa x area   | Pi of the element                                 |
-// | element_residual | (elements, 8)  | kPa x length | dof 2 c + i                                       |
-// | element_tangent  | (elements, 36) | kPa          | lower triangle by rows                            |
-// | residual         | (nodes, 2)     | kPa x length | dPi/dx, also at held nodes: what holds them       |
-// | slot_begin       | (slots + 1)    |              | sources of slot s: slot_begin(s) to slot_begin(s+1) |
-// | slot_source      | (sources)      |              | 36 element + tangent entry                        |
-// | values           | (slots)        | kPa          | lower triangle of K in compressed rows            |
+// | view          | shape         | unit         |                                                      |
+// |---------------|---------------|--------------|------------------------------------------------------|
+// | nodes         | (nodes, 2)    | length       | positions                                            |
+// | Ta            | (elements, 4) | kPa          | tension at the Gauss points                          |
+// | energy        | (2, elements) | kPa x area, 1 | Pi and smallest corner J of the element             |
+// | element       | (44, places)  | kPa x length, kPa | its residual, dof 2 c + i, and the lower triangle of
+// its tangent by rows | | residual      | (nodes, 2)    | kPa x length | dPi/dx, also at held nodes: what
+// holds them          | | nodal_tangent | (19, nodes)   | kPa          | K of the node's two rows, see
+// NodalTangent           | | slot_source   | (slots)       |              | entry nodes + node in
+// nodal_tangent                  | | values        | (slots)       | kPa          | lower triangle of K in
+// compressed rows               |
+//
+// Element (I, J) stands at place node(I, J) + columns + 2: the elements around node n are then at
+// n, n + 1, n + columns + 1 and n + columns + 2, and the places that are no element hold zeros.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -21,29 +24,37 @@
 #include "kernels/base/views.hpp"
 #include "kernels/elastic/element.hpp"
 #include "kernels/elastic/element_grid.hpp"
+#include "kernels/elastic/element_loop.hpp"
 
 namespace myowave::elastic {
 
-// Layouts follow the backend: an element's numbers together on a processor, interleaved on a GPU.
+// Rows of neighbouring elements or nodes: vector lanes on a processor, coalesced on a GPU.
 template <class MemorySpace>
-using ElementResidual = Kokkos::View<double* [element_dofs], MemorySpace>;
-template <class MemorySpace>
-using ElementTangent = Kokkos::View<double* [tangent_entries], MemorySpace>;
+using Rows = Kokkos::View<double**, Kokkos::LayoutRight, MemorySpace>;
 template <class MemorySpace>
 using Numbers = Kokkos::View<double*, MemorySpace>;
 template <class MemorySpace>
 using Indices = Kokkos::View<int*, MemorySpace>;
+
+inline constexpr int linearization_entries = element_dofs + tangent_entries;
+constexpr int places(const ElementGrid& grid) { return grid.nodes() + grid.columns + 2; }
+
+// K of a node with the four nodes before it, at 4 k + 2 i + j of its component i and component j of
+// neighbour k; then with itself: 11, 21, 22.
+struct NodalTangent {
+  static constexpr int neighbours = 4;
+  static constexpr int self = 4 * neighbours;
+  static constexpr int entries = self + 3;
+  // Neighbour k is node (I + row(k), J + column(k)).
+  static constexpr int row(int k) { return k < 3 ? -1 : 0; }
+  static constexpr int column(int k) { return k < 3 ? k - 1 : -1; }
+};
 
 namespace detail {
 
 template <class Space>
 Kokkos::RangePolicy<Space> range(const Space& space, int n) {
   return {space, 0, n};
-}
-
-template <class TensionView>
-KOKKOS_INLINE_FUNCTION void load_tension(const TensionView& Ta, int e, double (&out)[gauss_points]) {
-  for (int q = 0; q < gauss_points; ++q) out[q] = Ta(e, q);
 }
 
 }  // namespace detail
@@ -98,81 +109,116 @@ void mix_tension(const Space& space, const GaussTension<typename Space::memory_s
       });
 }
 
-// Writes the energy of every element and returns the smallest corner J. An element with a corner
-// J <= 0, or with positions that are not numbers, has no energy: not-a-number marks it.
+// Writes the energy of every element and its smallest corner J; where that is not positive the energy
+// means nothing.
+template <class MemorySpace>
+struct ElementEnergies {
+  Membrane membrane;
+  ElementGrid grid;
+  Nodes<MemorySpace> nodes;
+  GaussTension<MemorySpace> Ta;
+  Rows<MemorySpace> energy;
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int I, int J) const {
+    const int e = grid.element(I, J);
+    const ElementNodes element = element_nodes(grid, nodes, I, J);
+    const double tension[gauss_points] = {Ta(e, 0), Ta(e, 1), Ta(e, 2), Ta(e, 3)};
+    energy(0, e) = element_energy(membrane, element, tension, grid.h);
+    energy(1, e) = min_corner_J(element, grid.h);
+  }
+};
+
 template <class Space>
-double element_energies(const Space& space, const Membrane& membrane, const ElementGrid& grid,
-                        const Nodes<typename Space::memory_space>& nodes,
-                        const GaussTension<typename Space::memory_space>& Ta,
-                        const Numbers<typename Space::memory_space>& energy) {
-  double min_J = 0;
-  Kokkos::parallel_reduce(
-      "myowave::elastic::element_energies", detail::range(space, grid.elements()),
-      KOKKOS_LAMBDA(int e, double& smallest) {
-        const ElementNodes element = element_nodes(grid, nodes, e);
-        const double J = min_corner_J(element, grid.h);
-        double tension[gauss_points];
-        detail::load_tension(Ta, e, tension);
-        energy(e) = J > 0 ? element_energy(membrane, element, tension, grid.h)
-                          : Kokkos::Experimental::quiet_NaN_v<double>;
-        if (J < smallest) smallest = J;
-      },
-      Kokkos::Min<double>(min_J));
-  return min_J;
+void element_energies(const Space& space, const Membrane& membrane, const ElementGrid& grid,
+                      const Nodes<typename Space::memory_space>& nodes,
+                      const GaussTension<typename Space::memory_space>& Ta,
+                      const Rows<typename Space::memory_space>& energy) {
+  for_columns_of_rows("myowave::elastic::element_energies", space, grid.rows, grid.columns,
+                      ElementEnergies<typename Space::memory_space>{membrane, grid, nodes, Ta, energy});
 }
+
+template <class MemorySpace>
+struct LinearizeElements {
+  Membrane membrane;
+  ElementGrid grid;
+  Nodes<MemorySpace> nodes;
+  GaussTension<MemorySpace> Ta;
+  Rows<MemorySpace> element;
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int I, int J) const {
+    const int e = grid.element(I, J), place = grid.node(I, J) + grid.columns + 2;
+    const double tension[gauss_points] = {Ta(e, 0), Ta(e, 1), Ta(e, 2), Ta(e, 3)};
+    const ElementLinearization found =
+        linearize_element(membrane, element_nodes(grid, nodes, I, J), tension, grid.h);
+#pragma GCC unroll 8
+    for (int a = 0; a < element_dofs; ++a) element(a, place) = found.R[a];
+#pragma GCC unroll 36
+    for (int k = 0; k < tangent_entries; ++k) element(element_dofs + k, place) = found.K[k];
+  }
+};
 
 template <class Space>
 void linearize_elements(const Space& space, const Membrane& membrane, const ElementGrid& grid,
                         const Nodes<typename Space::memory_space>& nodes,
                         const GaussTension<typename Space::memory_space>& Ta,
-                        const ElementResidual<typename Space::memory_space>& element_residual,
-                        const ElementTangent<typename Space::memory_space>& element_tangent) {
-  Kokkos::parallel_for(
-      "myowave::elastic::linearize_elements", detail::range(space, grid.elements()), KOKKOS_LAMBDA(int e) {
-        double tension[gauss_points];
-        detail::load_tension(Ta, e, tension);
-        const ElementLinearization element =
-            linearize_element(membrane, element_nodes(grid, nodes, e), tension, grid.h);
-        for (int a = 0; a < element_dofs; ++a) element_residual(e, a) = element.R[a];
-        for (int k = 0; k < tangent_entries; ++k) element_tangent(e, k) = element.K[k];
-      });
+                        const Rows<typename Space::memory_space>& element) {
+  for_columns_of_rows("myowave::elastic::linearize_elements", space, grid.rows, grid.columns,
+                      LinearizeElements<typename Space::memory_space>{membrane, grid, nodes, Ta, element});
 }
 
-// Sums the residual of the up to four elements at each node.
+// Sums residual and tangent of the up to four elements at each node, in the order of the elements.
+template <class MemorySpace>
+struct GatherNodes {
+  ElementGrid grid;
+  Rows<MemorySpace> element;
+  Nodes<MemorySpace> residual;
+  Rows<MemorySpace> nodal_tangent;
+
+  // Of the element whose corner c is node n.
+  KOKKOS_FORCEINLINE_FUNCTION int place(int n, int c) const {
+    return n + (c < 2 ? grid.columns + 1 : 0) + (c % 2 == 0 ? 1 : 0);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION double R(int n, int c, int i) const { return element(2 * c + i, place(n, c)); }
+  KOKKOS_FORCEINLINE_FUNCTION double K(int n, int c, int i, int b, int j) const {
+    return element(element_dofs + tangent_entry(2 * c + i, 2 * b + j), place(n, c));
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int I, int J) const {
+    const int n = grid.node(I, J);
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) {
+      residual(n, i) = R(n, 3, i) + R(n, 2, i) + R(n, 1, i) + R(n, 0, i);
+#pragma GCC unroll 2
+      for (int j = 0; j < 2; ++j) {
+        nodal_tangent(2 * i + j, n) = K(n, 3, i, 0, j);
+        nodal_tangent(4 + 2 * i + j, n) = K(n, 3, i, 1, j) + K(n, 2, i, 0, j);
+        nodal_tangent(8 + 2 * i + j, n) = K(n, 2, i, 1, j);
+        nodal_tangent(12 + 2 * i + j, n) = K(n, 3, i, 2, j) + K(n, 1, i, 0, j);
+        if (j <= i)
+          nodal_tangent(NodalTangent::self + i + j, n) =
+              K(n, 3, i, 3, j) + K(n, 2, i, 2, j) + K(n, 1, i, 1, j) + K(n, 0, i, 0, j);
+      }
+    }
+  }
+};
+
 template <class Space>
-void gather_residual(const Space& space, const ElementGrid& grid,
-                     const ElementResidual<typename Space::memory_space>& element_residual,
-                     const Nodes<typename Space::memory_space>& residual) {
-  Kokkos::parallel_for(
-      "myowave::elastic::gather_residual", detail::range(space, grid.nodes()), KOKKOS_LAMBDA(int n) {
-        const int I = n / (grid.columns + 1), J = n % (grid.columns + 1);
-        double r1 = 0, r2 = 0;
-        for (int c = corners - 1; c >= 0; --c) {
-          const int row = I - c / 2, column = J - c % 2;  // the element whose corner c is this node
-          if (row < 0 || row >= grid.rows || column < 0 || column >= grid.columns) continue;
-          const int e = row * grid.columns + column;
-          r1 += element_residual(e, 2 * c);
-          r2 += element_residual(e, 2 * c + 1);
-        }
-        residual(n, 0) = r1;
-        residual(n, 1) = r2;
-      });
+void gather_nodes(const Space& space, const ElementGrid& grid,
+                  const Rows<typename Space::memory_space>& element,
+                  const Nodes<typename Space::memory_space>& residual,
+                  const Rows<typename Space::memory_space>& nodal_tangent) {
+  for_columns_of_rows("myowave::elastic::gather_nodes", space, grid.rows + 1, grid.columns + 1,
+                      GatherNodes<typename Space::memory_space>{grid, element, residual, nodal_tangent});
 }
 
 template <class Space>
-void gather_tangent(const Space& space, const Indices<typename Space::memory_space>& slot_begin,
-                    const Indices<typename Space::memory_space>& slot_source,
-                    const ElementTangent<typename Space::memory_space>& element_tangent,
+void gather_tangent(const Space& space, const Indices<typename Space::memory_space>& slot_source,
+                    const Rows<typename Space::memory_space>& nodal_tangent,
                     const Numbers<typename Space::memory_space>& values) {
+  const double* const source = nodal_tangent.data();
   Kokkos::parallel_for(
       "myowave::elastic::gather_tangent", detail::range(space, static_cast<int>(values.extent(0))),
-      KOKKOS_LAMBDA(int s) {
-        double sum = 0;
-        for (int k = slot_begin(s); k < slot_begin(s + 1); ++k) {
-          sum += element_tangent(slot_source(k) / tangent_entries, slot_source(k) % tangent_entries);
-        }
-        values(s) = sum;
-      });
+      KOKKOS_LAMBDA(int s) { values(s) = source[slot_source(s)]; });
 }
 
 }  // namespace myowave::elastic

@@ -21,11 +21,12 @@ struct EdgeLoad {
 };
 
 // Adds -p J = -p sqrt A.
-KOKKOS_INLINE_FUNCTION void add_follower_load(double p, double A, EnergyDerivatives& w) {
+KOKKOS_FORCEINLINE_FUNCTION void add_follower_load(double p, double A, EnergyDerivatives& w) {
   const double J = Kokkos::sqrt(A);
+  const double inv_A = 1 / A, inv_J = J * inv_A;
   w.w -= p * J;
-  w.w_A -= 0.5 * p / J;
-  w.w_AA += 0.25 * p / (A * J);
+  w.w_A -= 0.5 * p * inv_J;
+  w.w_AA += 0.25 * p * inv_A * inv_J;
 }
 
 // The same load as force on either end of the edge a -> b, the sheet on its left.

@@ -1,10 +1,11 @@
 // Energy, residual and tangent of one element (Nash & Panfilov 2004, Eqs 15-19), 2 x 2 Gauss points:
 //
 //   Pi      = sum_g w_g [w + Ta ln J - p J]                                     (dead load: - p tr F)
-//   R_(n,i) = sum_g w_g P_iM Psi_n,M                  P = F S                   (dead load: - p I)
-//   K_(n,i)(m,j) = sum_g w_g Psi_n,M A_iMjN Psi_m,N   A_iMjN = F_iP dS_PM/dE_QN F_jQ + delta_ij S_MN
+//   R_(n,i) = sum_g w_g P_iM Psi_n,M                  P = dw/dF                 (dead load: - p I)
+//   K_(n,i)(m,j) = sum_g w_g Psi_n,M A_iMjN Psi_m,N   A = dP/dF
 //
 // One potential: R is its gradient and K its symmetric second derivative, for either load.
+// All of it is inlined and without a loop, so that a loop over elements becomes one over vector lanes.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -27,56 +28,29 @@ struct Membrane {
   EdgeLoad load;
 };
 
-KOKKOS_INLINE_FUNCTION EnergyDerivatives membrane_energy(const Membrane& membrane, double Ta, const Sym2& C) {
-  const double A = determinant(C);
-  EnergyDerivatives w = passive_energy(membrane.passive, trace(C), A);
+KOKKOS_FORCEINLINE_FUNCTION EnergyDerivatives membrane_energy(const Membrane& membrane, double Ta,
+                                                              const Mat2& F) {
+  const double J = determinant(F), A = J * J;
+  EnergyDerivatives w =
+      passive_energy(membrane.passive, F.m11 * F.m11 + F.m12 * F.m12 + F.m21 * F.m21 + F.m22 * F.m22, A);
   add_active_tension(Ta, A, w);
   add_follower_load(membrane.load.follower, A, w);
   return w;
 }
 
-// P = dw/dF, first Piola-Kirchhoff stress with the load in it.
-KOKKOS_INLINE_FUNCTION Mat2 first_piola_kirchhoff(const Membrane& membrane, const Mat2& F, const Sym2& S) {
-  const double dead = membrane.load.dead;
-  return {F.m11 * S.m11 + F.m12 * S.m12 - dead, F.m11 * S.m12 + F.m12 * S.m22, F.m21 * S.m11 + F.m22 * S.m12,
-          F.m21 * S.m12 + F.m22 * S.m22 - dead};
-}
-
-// A_(iM)(jN) = dP_iM/dF_jN, rows and columns in the order 11, 12, 21, 22; symmetric.
-struct SpatialTangent {
-  double a[4][4];
-};
-
-KOKKOS_INLINE_FUNCTION SpatialTangent spatial_tangent(const Mat2& F, const Sym2& S,
-                                                      const MaterialTangent& D) {
-  // dE in the order 11, 22, 2 x 12 for a unit dF_iM.
-  const double b[4][3] = {{F.m11, 0, F.m12}, {0, F.m12, F.m11}, {F.m21, 0, F.m22}, {0, F.m22, F.m21}};
-  SpatialTangent A;
-  for (int k = 0; k < 4; ++k) {
-    const double s11 = D.d1111 * b[k][0] + D.d1122 * b[k][1] + D.d1112 * b[k][2];
-    const double s22 = D.d1122 * b[k][0] + D.d2222 * b[k][1] + D.d2212 * b[k][2];
-    const double s12 = D.d1112 * b[k][0] + D.d2212 * b[k][1] + D.d1212 * b[k][2];
-    for (int l = 0; l < 4; ++l) A.a[k][l] = b[l][0] * s11 + b[l][1] * s22 + b[l][2] * s12;
-  }
-  for (int i = 0; i < 4; i += 2) {
-    A.a[i][i] += S.m11;
-    A.a[i][i + 1] += S.m12;
-    A.a[i + 1][i] += S.m12;
-    A.a[i + 1][i + 1] += S.m22;
-  }
-  return A;
+// w at Gauss point q, kPa, with the load in it.
+KOKKOS_FORCEINLINE_FUNCTION double gauss_energy(const Membrane& membrane, const ElementNodes& element,
+                                                double Ta, int q, double h) {
+  const Mat2 F = gauss_deformation_gradient(element, q, h);
+  return membrane_energy(membrane, Ta, F).w - membrane.load.dead * (F.m11 + F.m22);
 }
 
 // Pi of the element, kPa x area. Ta at its four Gauss points, kPa. J must be positive.
-KOKKOS_INLINE_FUNCTION double element_energy(const Membrane& membrane, const ElementNodes& element,
-                                             const double (&Ta)[gauss_points], double h) {
-  double energy = 0;
-  for (int q = 0; q < gauss_points; ++q) {
-    const Mat2 F = gauss_deformation_gradient(element, q, h);
-    energy +=
-        membrane_energy(membrane, Ta[q], right_cauchy_green(F)).w - membrane.load.dead * (F.m11 + F.m22);
-  }
-  return 0.25 * h * h * energy;
+KOKKOS_FORCEINLINE_FUNCTION double element_energy(const Membrane& membrane, const ElementNodes& element,
+                                                  const double (&Ta)[gauss_points], double h) {
+  return 0.25 * h * h *
+         (gauss_energy(membrane, element, Ta[0], 0, h) + gauss_energy(membrane, element, Ta[1], 1, h) +
+          gauss_energy(membrane, element, Ta[2], 2, h) + gauss_energy(membrane, element, Ta[3], 3, h));
 }
 
 // R (kPa x length) and the lower triangle of K (kPa).
@@ -85,46 +59,61 @@ struct ElementLinearization {
   double K[tangent_entries];
 };
 
-// Adds Gauss point q.
-KOKKOS_INLINE_FUNCTION void add_gauss_point(const Membrane& membrane, const ElementNodes& element, double Ta,
-                                            int q, double h, ElementLinearization& out) {
-  const Mat2 F = gauss_deformation_gradient(element, q, h);
-  const Sym2 C = right_cauchy_green(F);
-  const EnergyDerivatives w = membrane_energy(membrane, Ta, C);
-  const Sym2 S = second_piola_kirchhoff(w, C);
-  const Mat2 P = first_piola_kirchhoff(membrane, F, S);
-  const SpatialTangent A = spatial_tangent(F, S, material_tangent(w, C));
-  const double weight = 0.25 * h * h;
-
-  ShapeGradient gradient[corners];
-  for (int c = 0; c < corners; ++c) {
-    gradient[c] = shape_gradient(c, gauss_coordinate(q % 2), gauss_coordinate(q / 2), h);
-  }
-  for (int n = 0; n < corners; ++n) {
-    const double g1 = weight * gradient[n].d1, g2 = weight * gradient[n].d2;
-    out.R[2 * n] += P.m11 * g1 + P.m12 * g2;
-    out.R[2 * n + 1] += P.m21 * g1 + P.m22 * g2;
-    // Row (n, i) of weight Psi_n,M A_iMjN, columns jN.
-    double row[2][4];
-    for (int k = 0; k < 4; ++k) {
-      row[0][k] = g1 * A.a[0][k] + g2 * A.a[1][k];
-      row[1][k] = g1 * A.a[2][k] + g2 * A.a[3][k];
-    }
-    for (int m = 0; m <= n; ++m) {
-      const double d1 = gradient[m].d1, d2 = gradient[m].d2;
-      out.K[tangent_entry(2 * n, 2 * m)] += row[0][0] * d1 + row[0][1] * d2;
-      out.K[tangent_entry(2 * n + 1, 2 * m)] += row[1][0] * d1 + row[1][1] * d2;
-      out.K[tangent_entry(2 * n + 1, 2 * m + 1)] += row[1][2] * d1 + row[1][3] * d2;
-      if (m < n) out.K[tangent_entry(2 * n, 2 * m + 1)] += row[0][2] * d1 + row[0][3] * d2;
-    }
-  }
+// Gauss point q: adds to the rows of corner n, and to their columns of corner m <= n.
+template <int q, int n, int m>
+KOKKOS_FORCEINLINE_FUNCTION void add_entries(const Mat2& row_1, const Mat2& row_2,
+                                             ElementLinearization& out) {
+  constexpr ShapeGradient d = shape_gradient(m, gauss_coordinate(q % 2), gauss_coordinate(q / 2), 1);
+  out.K[tangent_entry(2 * n, 2 * m)] += row_1.m11 * d.d1 + row_1.m12 * d.d2;
+  out.K[tangent_entry(2 * n + 1, 2 * m)] += row_2.m11 * d.d1 + row_2.m12 * d.d2;
+  out.K[tangent_entry(2 * n + 1, 2 * m + 1)] += row_2.m21 * d.d1 + row_2.m22 * d.d2;
+  if (m < n) out.K[tangent_entry(2 * n, 2 * m + 1)] += row_1.m21 * d.d1 + row_1.m22 * d.d2;
 }
 
-KOKKOS_INLINE_FUNCTION ElementLinearization linearize_element(const Membrane& membrane,
-                                                              const ElementNodes& element,
-                                                              const double (&Ta)[gauss_points], double h) {
+template <int q, int n>
+KOKKOS_FORCEINLINE_FUNCTION void add_rows(const Mat2& P, const SpatialTangent& A, ElementLinearization& out) {
+  constexpr ShapeGradient g = shape_gradient(n, gauss_coordinate(q % 2), gauss_coordinate(q / 2), 1);
+  out.R[2 * n] += P.m11 * g.d1 + P.m12 * g.d2;
+  out.R[2 * n + 1] += P.m21 * g.d1 + P.m22 * g.d2;
+  // Psi_n,M A_iMjN of row i, at jN.
+  const Mat2 row_1{g.d1 * A.a1111 + g.d2 * A.a1112, g.d1 * A.a1112 + g.d2 * A.a1212,
+                   g.d1 * A.a1121 + g.d2 * A.a1221, g.d1 * A.a1122 + g.d2 * A.a1222};
+  const Mat2 row_2{g.d1 * A.a1121 + g.d2 * A.a1122, g.d1 * A.a1221 + g.d2 * A.a1222,
+                   g.d1 * A.a2121 + g.d2 * A.a2122, g.d1 * A.a2122 + g.d2 * A.a2222};
+  add_entries<q, n, 0>(row_1, row_2, out);
+  if constexpr (n > 0) add_entries<q, n, 1>(row_1, row_2, out);
+  if constexpr (n > 1) add_entries<q, n, 2>(row_1, row_2, out);
+  if constexpr (n > 2) add_entries<q, n, 3>(row_1, row_2, out);
+}
+
+// Gauss point q. With the gradients of the unit square h^2 cancels in K, and one h is left in R.
+template <int q>
+KOKKOS_FORCEINLINE_FUNCTION void add_gauss_point(const Membrane& membrane, const ElementNodes& element,
+                                                 double Ta, double h, ElementLinearization& out) {
+  constexpr double weight = 0.25;
+  const Mat2 F = gauss_deformation_gradient(element, q, h);
+  const EnergyDerivatives w = membrane_energy(membrane, Ta, F);
+  const EnergyDerivatives weighted{
+      .w_t = weight * w.w_t, .w_A = weight * w.w_A, .w_tA = weight * w.w_tA, .w_AA = weight * w.w_AA};
+  const Mat2 P = first_piola_kirchhoff(weighted, F);
+  const double dead = weight * membrane.load.dead;
+  const Mat2 force{h * (P.m11 - dead), h * P.m12, h * P.m21, h * (P.m22 - dead)};
+  const SpatialTangent A = spatial_tangent(weighted, F);
+  add_rows<q, 0>(force, A, out);
+  add_rows<q, 1>(force, A, out);
+  add_rows<q, 2>(force, A, out);
+  add_rows<q, 3>(force, A, out);
+}
+
+KOKKOS_FORCEINLINE_FUNCTION ElementLinearization linearize_element(const Membrane& membrane,
+                                                                   const ElementNodes& element,
+                                                                   const double (&Ta)[gauss_points],
+                                                                   double h) {
   ElementLinearization out{};
-  for (int q = 0; q < gauss_points; ++q) add_gauss_point(membrane, element, Ta[q], q, h, out);
+  add_gauss_point<0>(membrane, element, Ta[0], h, out);
+  add_gauss_point<1>(membrane, element, Ta[1], h, out);
+  add_gauss_point<2>(membrane, element, Ta[2], h, out);
+  add_gauss_point<3>(membrane, element, Ta[3], h, out);
   return out;
 }
 

@@ -24,14 +24,18 @@ struct ElementNodes {
 };
 
 template <class NodesView>
+KOKKOS_FORCEINLINE_FUNCTION ElementNodes element_nodes(const ElementGrid& grid, const NodesView& nodes, int I,
+                                                       int J) {
+  const int n = grid.node(I, J), m = grid.node(I + 1, J);
+  return {{{nodes(n, 0), nodes(n, 1)},
+           {nodes(n + 1, 0), nodes(n + 1, 1)},
+           {nodes(m, 0), nodes(m, 1)},
+           {nodes(m + 1, 0), nodes(m + 1, 1)}}};
+}
+
+template <class NodesView>
 KOKKOS_INLINE_FUNCTION ElementNodes element_nodes(const ElementGrid& grid, const NodesView& nodes, int e) {
-  ElementNodes element{};
-  for (int c = 0; c < corners; ++c) {
-    const int n = grid.corner(e, c);
-    element.x[c][0] = nodes(n, 0);
-    element.x[c][1] = nodes(n, 1);
-  }
-  return element;
+  return element_nodes(grid, nodes, e / grid.columns, e % grid.columns);
 }
 
 // Coordinate of Gauss point k = 0, 1 of the two-point rule on [0, 1]: 1/2 -+ 1/(2 sqrt 3).
@@ -51,8 +55,8 @@ KOKKOS_INLINE_FUNCTION constexpr ShapeGradient shape_gradient(int c, double xi_1
 }
 
 // F at xi, from differences along the edges: a translation of the element leaves it as it is.
-KOKKOS_INLINE_FUNCTION Mat2 deformation_gradient(const ElementNodes& element, double xi_1, double xi_2,
-                                                 double h) {
+KOKKOS_FORCEINLINE_FUNCTION Mat2 deformation_gradient(const ElementNodes& element, double xi_1, double xi_2,
+                                                      double h) {
   const auto& x = element.x;
   const double a1 = (1 - xi_2) / h, b1 = xi_2 / h;  // weights of the edges 0-1 and 2-3
   const double a2 = (1 - xi_1) / h, b2 = xi_1 / h;  // weights of the edges 0-2 and 1-3
@@ -63,18 +67,18 @@ KOKKOS_INLINE_FUNCTION Mat2 deformation_gradient(const ElementNodes& element, do
 }
 
 // F at Gauss point q.
-KOKKOS_INLINE_FUNCTION Mat2 gauss_deformation_gradient(const ElementNodes& element, int q, double h) {
+KOKKOS_FORCEINLINE_FUNCTION Mat2 gauss_deformation_gradient(const ElementNodes& element, int q, double h) {
   return deformation_gradient(element, gauss_coordinate(q % 2), gauss_coordinate(q / 2), h);
 }
 
 // Smallest J of the element. J is linear in xi on a bilinear element, so that it lies at a corner;
 // the Gauss points alone would let an inverted corner through.
-KOKKOS_INLINE_FUNCTION double min_corner_J(const ElementNodes& element, double h) {
-  double smallest = determinant(deformation_gradient(element, 0, 0, h));
-  for (int c = 1; c < corners; ++c) {
-    smallest = Kokkos::min(smallest, determinant(deformation_gradient(element, c % 2, c / 2, h)));
-  }
-  return smallest;
+KOKKOS_FORCEINLINE_FUNCTION double min_corner_J(const ElementNodes& element, double h) {
+  const double J_0 = determinant(deformation_gradient(element, 0, 0, h)),
+               J_1 = determinant(deformation_gradient(element, 1, 0, h)),
+               J_2 = determinant(deformation_gradient(element, 0, 1, h)),
+               J_3 = determinant(deformation_gradient(element, 1, 1, h));
+  return Kokkos::min(Kokkos::min(J_0, J_1), Kokkos::min(J_2, J_3));
 }
 
 }  // namespace myowave::elastic

@@ -16,8 +16,8 @@ struct MooneyRivlin {
   double c2 = 6;  // kPa, >= 0, Table 1
 };
 
-KOKKOS_INLINE_FUNCTION constexpr EnergyDerivatives passive_energy(const MooneyRivlin& law, double t,
-                                                                  double A) {
+KOKKOS_FORCEINLINE_FUNCTION constexpr EnergyDerivatives passive_energy(const MooneyRivlin& law, double t,
+                                                                       double A) {
   const double inv_A = 1 / A;
   return {.w = law.c1 * (t + inv_A) + law.c2 * (A + t * inv_A),
           .w_t = law.c1 + law.c2 * inv_A,

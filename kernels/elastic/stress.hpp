@@ -1,10 +1,12 @@
-// Stress and tangent of an isotropic plane energy w(t, A), t = tr C, A = det C = J^2
+// Stress and tangent of an isotropic plane energy w(t, A), t = F:F = tr C, A = J^2 = det C
 // (Nash & Panfilov 2004, Eqs 9-12, reduced to the plane), per unit undeformed area:
 //
-//   S     = 2 w_t I + 2 A w_A C^-1
-//   dS/dE = 4 [A w_tA (I x C^-1 + C^-1 x I) + (A^2 w_AA + A w_A) C^-1 x C^-1 - A w_A II]
-//   II_MNPQ = 1/2 (C^-1_MP C^-1_NQ + C^-1_MQ C^-1_NP)
+//   P_iM     = dw/dF_iM = 2 w_t F_iM + 2 J w_A c_iM                       c = dJ/dF = cof F
+//   A_iMjN   = dP_iM/dF_jN
+//            = 2 w_t delta_ij delta_MN + (4 A w_AA + 2 w_A) c_iM c_jN
+//              + 4 J w_tA (F_iM c_jN + c_iM F_jN) + 2 J w_A dc_iM/dF_jN
 //
+// With S = F^-1 P and C^-1 it is F_iP dS_PM/dE_QN F_jQ + delta_ij S_MN, at several times the cost.
 // w_tt = 0 in every term of this membrane, and is left out.
 #pragma once
 
@@ -17,30 +19,38 @@ struct EnergyDerivatives {
   double w = 0, w_t = 0, w_A = 0, w_tA = 0, w_AA = 0;
 };
 
-// dS/dE in the order 11, 22, 12: dS = D (dE_11, dE_22, 2 dE_12). Symmetric.
-struct MaterialTangent {
-  double d1111, d1122, d1112, d2222, d2212, d1212;
-};
-
-KOKKOS_INLINE_FUNCTION constexpr Sym2 second_piola_kirchhoff(const EnergyDerivatives& w, const Sym2& C) {
-  const Sym2 g = inverse(C);
-  const double along_I = 2 * w.w_t;
-  const double along_g = 2 * determinant(C) * w.w_A;
-  return {along_I + along_g * g.m11, along_g * g.m12, along_I + along_g * g.m22};
+// P, first Piola-Kirchhoff.
+KOKKOS_FORCEINLINE_FUNCTION constexpr Mat2 first_piola_kirchhoff(const EnergyDerivatives& w, const Mat2& F) {
+  const double along_F = 2 * w.w_t, along_c = 2 * determinant(F) * w.w_A;
+  return {along_F * F.m11 + along_c * F.m22, along_F * F.m12 - along_c * F.m21,
+          along_F * F.m21 - along_c * F.m12, along_F * F.m22 + along_c * F.m11};
 }
 
-KOKKOS_INLINE_FUNCTION constexpr MaterialTangent material_tangent(const EnergyDerivatives& w, const Sym2& C) {
-  const Sym2 g = inverse(C);
-  const double A = determinant(C);
-  const double mixed = 4 * A * w.w_tA;
-  const double squared = 4 * (A * A * w.w_AA + A * w.w_A);
-  const double fourth = -4 * A * w.w_A;
-  return {2 * mixed * g.m11 + (squared + fourth) * g.m11 * g.m11,
-          mixed * (g.m11 + g.m22) + squared * g.m11 * g.m22 + fourth * g.m12 * g.m12,
-          mixed * g.m12 + (squared + fourth) * g.m11 * g.m12,
-          2 * mixed * g.m22 + (squared + fourth) * g.m22 * g.m22,
-          mixed * g.m12 + (squared + fourth) * g.m22 * g.m12,
-          squared * g.m12 * g.m12 + 0.5 * fourth * (g.m11 * g.m22 + g.m12 * g.m12)};
+// A_iMjN at a iMjN. Symmetric: A_iMjN = A_jNiM.
+struct SpatialTangent {
+  double a1111, a1112, a1121, a1122, a1212, a1221, a1222, a2121, a2122, a2222;
+};
+
+KOKKOS_FORCEINLINE_FUNCTION constexpr SpatialTangent spatial_tangent(const EnergyDerivatives& w,
+                                                                     const Mat2& F) {
+  const double J = determinant(F);
+  const double diagonal = 2 * w.w_t, squared = 4 * J * J * w.w_AA + 2 * w.w_A, mixed = 4 * J * w.w_tA,
+               crossed = 2 * J * w.w_A;
+  const Mat2 c{F.m22, -F.m21, -F.m12, F.m11};
+  // A_k. = mixed c_k F_. + (squared c_k + mixed F_k) c_. + ...
+  const Mat2 f{mixed * c.m11, mixed * c.m12, mixed * c.m21, mixed * c.m22};
+  const Mat2 s{squared * c.m11 + mixed * F.m11, squared * c.m12 + mixed * F.m12,
+               squared * c.m21 + mixed * F.m21, squared * c.m22 + mixed * F.m22};
+  return {diagonal + f.m11 * F.m11 + s.m11 * c.m11,
+          f.m11 * F.m12 + s.m11 * c.m12,
+          f.m11 * F.m21 + s.m11 * c.m21,
+          crossed + f.m11 * F.m22 + s.m11 * c.m22,
+          diagonal + f.m12 * F.m12 + s.m12 * c.m12,
+          f.m12 * F.m21 + s.m12 * c.m21 - crossed,
+          f.m12 * F.m22 + s.m12 * c.m22,
+          diagonal + f.m21 * F.m21 + s.m21 * c.m21,
+          f.m21 * F.m22 + s.m21 * c.m22,
+          diagonal + f.m22 * F.m22 + s.m22 * c.m22};
 }
 
 }  // namespace myowave::elastic

@@ -38,7 +38,7 @@ struct BandMatrix {
   }
 };
 
-// Sizes around the panel of eight columns, bands from none to full.
+// Sizes around the tile of eight columns, bands from none to full.
 TEST(BandedLdlt, SolvesEverySizeAndBand) {
   for (const int n : {1, 2, 7, 8, 9, 15, 16, 17, 40, 83})
     for (const int band : {0, 1, 2, 7, 8, 9, 20, 39, 82}) {

@@ -113,6 +113,36 @@ TEST(Newton, RoundingOfTheEnergyDoesNotStopTheLastSteps) {
   EXPECT_EQ(report.iterations, 1);
 }
 
+// (x - c)^2 / 2 + x^4 / 4 with c moved: the factor of the old minimum gives the first step.
+TEST(Newton, StartsWithTheFactorOfTheLastMinimum) {
+  double c = 2;
+  Toy toy{.energy = [&](double x) { return (x - c) * (x - c) / 2 + x * x * x * x / 4; },
+          .slope = [&](double x) { return x - c + x * x * x; },
+          .curvature = [](double x) { return 1 + 3 * x * x; },
+          .x = 1.5};
+  DirectSolver solver(std::vector<int>{0, 1}, std::vector<int>{0});
+  ASSERT_TRUE(Newton(toy, solver, NewtonSettings{}).minimise().converged);
+  EXPECT_NEAR(toy.x, 1, 1e-8);
+  c = 2.1;
+  const auto report = Newton(toy, solver, NewtonSettings{}).minimise(true);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.factorizations, report.iterations - 1);
+  EXPECT_NEAR(toy.x - c + toy.x * toy.x * toy.x, 0, 1e-8);
+}
+
+// The factor of a maximum leads uphill: it is not followed.
+TEST(Newton, AFactorThatLeadsUphillIsLeft) {
+  Toy toy{.energy = [](double x) { return (x - 3) * (x - 3); },
+          .slope = [](double x) { return 2 * (x - 3); },
+          .curvature = [](double) { return 2; }};
+  DirectSolver solver(std::vector<int>{0, 1}, std::vector<int>{0});
+  solver.factorize(std::vector<double>{-1});
+  const auto report = Newton(toy, solver, NewtonSettings{}).minimise(true);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.factorizations, 1);
+  EXPECT_DOUBLE_EQ(toy.x, 3);
+}
+
 TEST(Newton, NotANumberIsGivenUpAtOnce) {
   Toy toy{.energy = [](double) { return std::nan(""); },
           .slope = [](double) { return 0; },
