@@ -70,6 +70,11 @@ std::vector<double> to_host(const View& view) {
   return {host.data(), host.data() + host.size()};
 }
 
+// Whether steps can go on tile by tile; else one by one over the whole sheet.
+bool steps_in_tiles(const auto& form) {
+  return std::visit([](const auto& f) { return std::decay_t<decltype(f.diffusion)>::mirrored_edges; }, form);
+}
+
 auto values_of(const tissue::ActiveStimulus& stimulus) {
   const auto& r = stimulus.region;
   return std::tuple(r.row_begin, r.row_end, r.column_begin, r.column_end, r.center_row, r.center_column,
@@ -115,17 +120,22 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       form_(select_form<ExecutionSpace, Real>(scene.mechanics ? scene.metric : MetricForm::none, grid_,
                                               make_elements(scene),
                                               scene.mechanics ? scene.mechanics->cells_per_element : 1)),
-      V_("myowave::solver::V", 1, grid_.rows, grid_.columns),
-      V_next_("myowave::solver::V_next", 1, grid_.rows, grid_.columns),
-      r_("myowave::solver::r", 1, grid_.rows, grid_.columns),
-      Ta_("myowave::solver::Ta", 1, grid_.rows, grid_.columns),
+      state_{View("myowave::solver::V", 1, grid_.rows, grid_.columns),
+             View("myowave::solver::r", 1, grid_.rows, grid_.columns),
+             View("myowave::solver::Ta", 1, grid_.rows, grid_.columns)},
+      spare_{View("myowave::solver::V_next", 1, grid_.rows, grid_.columns), {}, {}},
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
       tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)),
       stimuli_("myowave::solver::stimuli", scene.stimuli.size()) {
-  upload(V_, state.V);
-  upload(r_, state.r);
-  upload(Ta_, state.Ta);
+  upload(state_.V, state.V);
+  upload(state_.r, state.r);
+  upload(state_.Ta, state.Ta);
+  // Single steps update r and Ta in place.
+  if (steps_in_tiles(form_)) {
+    spare_.r = View("myowave::solver::r_next", 1, grid_.rows, grid_.columns);
+    spare_.Ta = View("myowave::solver::Ta_next", 1, grid_.rows, grid_.columns);
+  }
 
   std::vector<std::int64_t> nodes;
   for (const auto& [row, column] : scene.output.probes)
@@ -167,8 +177,9 @@ template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
   const Timer timer(phases_->transfer);
   if (scene_.mechanics->contraction)
-    transfer::tension_to_gauss<ExecutionSpace, Real>(
-        space_, equilibrium_->grid(), scene_.mechanics->cells_per_element, Ta_, 0, gauss_tension_.device);
+    transfer::tension_to_gauss<ExecutionSpace, Real>(space_, equilibrium_->grid(),
+                                                     scene_.mechanics->cells_per_element, state_.Ta, 0,
+                                                     gauss_tension_.device);
   Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
   space_.fence("myowave::solver::begin_mechanics");
   // Deferred: it is solved where it is taken.
@@ -248,17 +259,19 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
   const auto probes = probe_nodes_.extent(0);
   if (probe_record_.device.extent(0) < static_cast<std::size_t>(count))
     probe_record_ = Mirrored<Record>("myowave::solver::probe_record", count, probes);
-  for (std::int64_t n = 0; n < count; ++n) {
-    const double t = static_cast<double>(first + n) * dt;
-    observe::record_probes(space_, V_, probe_nodes_, probe_record_.device, static_cast<int>(n));
-    std::visit(
-        [&](const auto& form) {
-          tissue::monodomain_step(space_, form.diffusion, model_, dt, V_, r_, Ta_, V_next_);
-        },
-        form_);
-    for (const auto& stimulus : schedule_.active(t))
-      tissue::add_stimulus(space_, V_next_, stimulus, dt / scene_.excitation.C_m);
-    std::swap(V_, V_next_);
+  const auto stimuli_at = [&](std::int64_t n) -> const auto& {
+    return schedule_.active(static_cast<double>(first + n) * dt);
+  };
+  for (std::int64_t n = 0; n < count;) {
+    std::int64_t quiet = n;  // up to here no stimulus comes in between
+    while (steps_in_tiles(form_) && quiet < count && stimuli_at(quiet).empty()) ++quiet;
+    if (quiet > n) {
+      tiled_steps(static_cast<int>(n), static_cast<int>(quiet - n));
+      n = quiet;
+    } else {
+      single_step(static_cast<int>(n), stimuli_at(n));
+      ++n;
+    }
   }
   const auto history = first_rows(probe_record_.host, count);
   Kokkos::deep_copy(space_, history, first_rows(probe_record_.device, count));
@@ -269,9 +282,36 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
 }
 
 template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count) {
+  const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns};
+  std::visit(
+      [&](const auto& form) {
+        if constexpr (std::decay_t<decltype(form.diffusion)>::mirrored_edges)
+          tissue::tiled_steps(space_, form.diffusion, model_, scene_.time.dt, count, state_, spare_, first,
+                              record);
+      },
+      form_);
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::single_step(int n,
+                                                         const std::vector<tissue::ActiveStimulus>& stimuli) {
+  observe::record_probes(space_, state_.V, probe_nodes_, probe_record_.device, n);
+  std::visit(
+      [&](const auto& form) {
+        tissue::monodomain_step(space_, form.diffusion, model_, scene_.time.dt, state_.V, state_.r, state_.Ta,
+                                spare_.V);
+      },
+      form_);
+  for (const auto& stimulus : stimuli)
+    tissue::add_stimulus(space_, spare_.V, stimulus, scene_.time.dt / scene_.excitation.C_m);
+  std::swap(state_.V, spare_.V);
+}
+
+template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::check_finite(double t) const {
   const Timer timer(phases_->observe);
-  const long node = observe::first_non_finite(space_, V_, r_, Ta_);
+  const long node = observe::first_non_finite(space_, state_.V, state_.r, state_.Ta);
   if (node < 0) return;
   const int row = static_cast<int>(node / grid_.columns), column = static_cast<int>(node % grid_.columns);
   const auto value = [&](const View& view) {
@@ -282,7 +322,7 @@ void Electromechanics<ExecutionSpace, Real>::check_finite(double t) const {
   throw NumericalFailure(fmt::format(
       "t = {:.6g} t.u.: the excitation is not finite at node (row {}, column {}): V = {}, r = {}, Ta = {}. "
       "Use a smaller time.dt, or look at the stimulus amplitude and at excitation.k and mu2",
-      t, row, column, value(V_), value(r_), value(Ta_)));
+      t, row, column, value(state_.V), value(state_.r), value(state_.Ta)));
 }
 
 template <class ExecutionSpace, class Real>
@@ -294,8 +334,9 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   activity.largest_V = std::visit(
       [&](const auto& form) {
         using Rate = tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, Model<Real>>;
-        const Rate rate{form.diffusion, model_, V_, r_, first_rows(stimuli_, uploaded_stimuli_.size())};
-        return observe::find_phase_singularities(space_, grid_, V_, rate, tip_count_.device,
+        const Rate rate{form.diffusion, model_, state_.V, state_.r,
+                        first_rows(stimuli_, uploaded_stimuli_.size())};
+        return observe::find_phase_singularities(space_, grid_, state_.V, rate, tip_count_.device,
                                                  tip_list_.device);
       },
       form_);
@@ -327,9 +368,9 @@ void Electromechanics<ExecutionSpace, Real>::upload_stimuli(
 
 template <class ExecutionSpace, class Real>
 std::vector<double> Electromechanics<ExecutionSpace, Real>::probe_values() const {
-  observe::record_probes(space_, V_, probe_nodes_, probe_values_.device, 0);
-  observe::record_probes(space_, r_, probe_nodes_, probe_values_.device, 1);
-  observe::record_probes(space_, Ta_, probe_nodes_, probe_values_.device, 2);
+  observe::record_probes(space_, state_.V, probe_nodes_, probe_values_.device, 0);
+  observe::record_probes(space_, state_.r, probe_nodes_, probe_values_.device, 1);
+  observe::record_probes(space_, state_.Ta, probe_nodes_, probe_values_.device, 2);
   Kokkos::deep_copy(space_, probe_values_.host, probe_values_.device);
   space_.fence("myowave::solver::probe_values");
   std::vector<double> values;
@@ -340,7 +381,7 @@ std::vector<double> Electromechanics<ExecutionSpace, Real>::probe_values() const
 
 template <class ExecutionSpace, class Real>
 InitialState Electromechanics<ExecutionSpace, Real>::download() const {
-  return {grid_.rows, grid_.columns, to_host(V_), to_host(r_), to_host(Ta_)};
+  return {grid_.rows, grid_.columns, to_host(state_.V), to_host(state_.r), to_host(state_.Ta)};
 }
 
 template <class ExecutionSpace, class Real>

@@ -95,6 +95,9 @@ class Electromechanics {
 
  private:
   void begin_mechanics(double t);
+  // Steps without a stimulus, or one with those given; n is the row of the probes' record.
+  void tiled_steps(int n, int count);
+  void single_step(int n, const std::vector<tissue::ActiveStimulus>&);
   void measure_area(double t);
   void upload_stimuli(const std::vector<tissue::ActiveStimulus>&);
   void refresh_metric(double t);
@@ -107,7 +110,8 @@ class Electromechanics {
   StimulusSchedule schedule_;
   Model<Real> model_;
   typename ModelForms<ExecutionSpace, Real>::Any form_;
-  View V_, V_next_, r_, Ta_;
+  tissue::ExcitationFields<View> state_;
+  tissue::ExcitationFields<View> spare_;  // where the next steps go
 
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;

@@ -297,7 +297,8 @@ std::uint64_t memory_bytes(const Scene& scene) {
   const auto nodes =
       static_cast<std::uint64_t>(scene.grid.rows) * static_cast<std::uint64_t>(scene.grid.columns);
   const std::uint64_t real = scene.precision == Precision::float32 ? sizeof(float) : sizeof(double);
-  constexpr std::uint64_t state_fields = 4;             // V twice, r, Ta
+  // V twice, r and Ta twice where steps go tile by tile
+  const std::uint64_t state_fields = scene.mechanics && scene.metric == MetricForm::expanded ? 4 : 6;
   constexpr std::uint64_t host_fields = 3 + 3;          // initial and sampled V, r, Ta, float64
   constexpr std::uint64_t conservative_fields = 4 + 3;  // weights, scratch of their refresh
   constexpr std::uint64_t expanded_fields = 5;

@@ -7,6 +7,7 @@
 #include "kernels/cell/active_tension.hpp"
 #include "kernels/cell/aliev_panfilov.hpp"
 #include "kernels/tissue/monodomain_step.hpp"
+#include "kernels/tissue/tiled_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
 #include "solver/scene.hpp"
 

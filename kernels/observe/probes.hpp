@@ -1,6 +1,8 @@
 // Values at chosen nodes of one member.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/base/views.hpp"
 
 namespace myowave::observe {
@@ -27,23 +29,26 @@ void record_probes(const ExecutionSpace& space, const View& field, const NodeLis
   }
 }
 
-// The same inside a launch of several steps (kernels/tissue/tiled_step.hpp).
+// The same before every step of a launch of several (kernels/tissue/tiled_step.hpp).
 //
 //   view     shape              access
-//   nodes    (probes, 2)        read, row and column
+//   nodes    (probes)           read, row columns + column
 //   record   (steps, probes)    write
 template <class Real, class MemorySpace>
 struct ProbeRecorder {
-  Kokkos::View<const int* [2], Kokkos::LayoutRight, MemorySpace> nodes;
+  Kokkos::View<const std::int64_t*, MemorySpace> nodes;
   Kokkos::View<Real**, Kokkos::LayoutRight, MemorySpace> record;
+  int columns;  // of the sheet
 
   template <class Columns>
-  KOKKOS_FUNCTION void operator()(const Columns& columns, int m, int i, int step, int begin, int end,
+  KOKKOS_FUNCTION void operator()(const Columns& lanes, int m, int i, int step, int begin, int end,
                                   const Real* V) const {
     if (m != 0) return;
-    for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p)
-      if (nodes(p, 0) == i && nodes(p, 1) >= begin && nodes(p, 1) < end)
-        columns.once([&]() { record(step, p) = V[nodes(p, 1) - begin]; });
+    const std::int64_t first = static_cast<std::int64_t>(i) * columns + begin;
+    for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p) {
+      const std::int64_t place = nodes(p) - first;
+      if (place >= 0 && place < end - begin) lanes.once([&]() { record(step, p) = V[place]; });
+    }
   }
 };
 

@@ -174,22 +174,22 @@ TEST(TiledSteps, WithoutTensionVAndRAreTheSame) {
 
 TEST(TiledSteps, ProbesSeeVBeforeEveryStep) {
   constexpr int steps = 33, first_step = 4;
-  const std::array<std::array<int, 2>, 3> probes{{{0, 0}, {40, 90}, {70, 13}}};
-  const Kokkos::View<int* [2], Kokkos::LayoutRight, MemorySpace> nodes("nodes", probes.size());
-  const auto host = Kokkos::create_mirror_view(nodes);
-  for (std::size_t p = 0; p < probes.size(); ++p) host(p, 0) = probes[p][0], host(p, 1) = probes[p][1];
-  Kokkos::deep_copy(nodes, host);
+  const std::array<std::int64_t, 3> probes{0, 40 * sheet.columns + 90, 70 * sheet.columns + 13};
+  const Kokkos::View<std::int64_t*, MemorySpace> nodes("nodes", probes.size());
+  Kokkos::deep_copy(nodes,
+                    Kokkos::View<const std::int64_t*, Kokkos::HostSpace>(probes.data(), probes.size()));
   const Kokkos::View<double**, Kokkos::LayoutRight, MemorySpace> record("record", first_step + steps,
                                                                         probes.size());
   const tissue::IdentityDiffusion<double, MemorySpace> diffusion(sheet.grid());
   auto state = random_state<double>(sheet), spare = empty_state<double>(sheet);
   tissue::tiled_steps(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt, steps, state,
-                      spare, first_step, observe::ProbeRecorder<double, MemorySpace>{nodes, record});
+                      spare, first_step,
+                      observe::ProbeRecorder<double, MemorySpace>{nodes, record, sheet.columns});
   const auto recorded = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, record);
   for (int n = 0; n < steps; ++n) {
     const Values V = test::to_values(single_steps<double>(sheet, diffusion, n).V);
     for (std::size_t p = 0; p < probes.size(); ++p)
-      ASSERT_EQ(recorded(first_step + n, p), V[probes[p][0] * sheet.columns + probes[p][1]]) << n << ' ' << p;
+      ASSERT_EQ(recorded(first_step + n, p), V[probes[p]]) << n << ' ' << p;
   }
 }
 
