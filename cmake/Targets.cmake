@@ -16,7 +16,9 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   if(MYOWAVE_NATIVE)
     check_cxx_compiler_flag(-march=native MYOWAVE_HAS_MARCH_NATIVE)
     if(MYOWAVE_HAS_MARCH_NATIVE)
-      target_compile_options(myowave_options INTERFACE -march=native)
+      # All instructions of this processor, but no tuning for a model: GCC takes one that it does not know
+      # for its nearest relative, which costs a step a quarter on an EPYC of family 26 with GCC 12.
+      target_compile_options(myowave_options INTERFACE -march=native -mtune=generic)
     endif()
   endif()
 endif()

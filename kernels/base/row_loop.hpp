@@ -17,7 +17,7 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetch_to_write([[maybe_unused]] const void* 
 namespace detail {
 
 // Bytes of one array: a line of the cache, and how much of a row runs between two rounds of hints.
-inline constexpr int line_bytes = 64, block_bytes = 512;
+inline constexpr int line_bytes = 64, block_bytes = 256;
 
 template <class Body>
 inline void simd_loop(int begin, int end, const Body& body) {

@@ -16,4 +16,7 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr int mirrored(int j, int n) {
   return j < 0 ? -j : (j < n ? j : 2 * (n - 1) - j);
 }
 
+// How many tiles of `owned` nodes cover a line of `nodes`.
+constexpr int tiles_of(int nodes, int owned) { return (nodes + owned - 1) / owned; }
+
 }  // namespace myowave::tissue

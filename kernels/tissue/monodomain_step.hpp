@@ -63,17 +63,19 @@ template <class ExecutionSpace, class Diffusion, class Model, class View>
 void monodomain_step(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                      const View& V, const View& r, const View& Ta, const View& V_next) {
   using Step = MonodomainStep<ExecutionSpace, Diffusion, Model>;
-  // A device team takes a few rows with a warp of columns each; on a host a team is one thread.
-  constexpr int rows_per_team = 4;
-  constexpr int vector_length = 32;
-  const int members = static_cast<int>(V.extent(0));
-  const int teams_per_member = (diffusion.grid.rows + rows_per_team - 1) / rows_per_team;
+  constexpr bool on_host = Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
+  const int members = static_cast<int>(V.extent(0)), rows = diffusion.grid.rows;
+  // A device team takes a few rows with a warp of columns each. On a host a team is one thread, which takes
+  // its share of the rows at once.
+  constexpr int rows_of_device_team = 4, warp = 32;
+  const int teams = on_host ? Kokkos::min(rows, tiles_of(space.concurrency(), members))
+                            : tiles_of(rows, rows_of_device_team);
+  const int rows_per_team = tiles_of(rows, teams), teams_per_member = tiles_of(rows, rows_per_team);
   const Step step{diffusion,     model,           typename Diffusion::Scalar(dt), V, V_next, r, Ta,
                   rows_per_team, teams_per_member};
-  constexpr bool on_host = Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
   Kokkos::parallel_for("myowave::tissue::monodomain_step",
-                       typename Step::Policy(space, members * teams_per_member, on_host ? 1 : rows_per_team,
-                                             on_host ? 1 : vector_length),
+                       typename Step::Policy(space, members * teams_per_member,
+                                             on_host ? 1 : rows_of_device_team, on_host ? 1 : warp),
                        step);
 }
 

@@ -30,8 +30,6 @@ struct TilePlan {
   int rows = 1, columns = 1, depth = 1;
 };
 
-constexpr int tiles_of(int nodes, int owned) { return (nodes + owned - 1) / owned; }
-
 // Looks at V of the owned nodes before each step; nothing by default.
 struct NoRecorder {
   template <class Columns, class Real>
@@ -185,8 +183,9 @@ struct TiledStep {
   // finite and never used.
   KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team, const Tile& tile) const {
     const int depth = plan.depth, all = scratch_rows(depth);
+    constexpr int fast = scratch_level;  // taken by reference, which a device can't of a static member
     auto* const scratch = static_cast<Real*>(
-        team.team_scratch(scratch_level)
+        team.team_scratch(fast)
             .get_shmem_aligned(scratch_bytes(depth) - detail::line_bytes, detail::line_bytes));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, all), [&](int n) {
       Real* const row = scratch + n * pitch;
