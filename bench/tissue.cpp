@@ -36,6 +36,14 @@ constexpr Traffic traffic_of(Form form) {
 }
 
 template <class Real>
+constexpr Traffic tiled_traffic_of(Form form, double depth) {
+  return form == Form::identity ? tiled_traffic<Real>(0, identity_flops, depth)
+         : form == Form::conservative
+             ? tiled_traffic<Real>(0, conservative_flops + metric_from_nodes_flops / depth, depth)
+             : tiled_traffic<Real>(4, conservative_flops, depth);
+}
+
+template <class Real>
 constexpr Traffic plain_traffic_of(Form form) {
   return form == Form::identity ? plain_traffic<Real>(0, identity_flops)
                                 : plain_traffic<Real>(5, conservative_flops);
@@ -112,6 +120,8 @@ class Step {
   View V_, V_next_, r_, Ta_;
 };
 
+constexpr int steps_between_solves = 80;
+
 // The product's steps, several a launch.
 template <Form form, class Real>
 class TiledSteps {
@@ -126,6 +136,13 @@ class TiledSteps {
     fill(old_.V, [](int i, int j) { return static_cast<Real>(initial_V(i, j)); });
     fill(old_.r, [](int i, int j) { return static_cast<Real>(initial_r(i, j)); });
     fill(old_.Ta, [](int i, int j) { return static_cast<Real>(initial_Ta(i, j)); });
+  }
+
+  // Of a launch, on the mean.
+  double depth() const {
+    using Tiled =
+        tissue::TiledStep<ExecutionSpace, decltype(diffusion_), solver::Model<Real>, tissue::NoRecorder>;
+    return double(steps_between_solves) / tissue::tiles_of(steps_between_solves, Tiled::largest_depth());
   }
 
   void operator()(int steps) {
@@ -269,15 +286,12 @@ void time_step(benchmark::State& state, const Suite& suite, int n, int members) 
   if (!wrong.empty()) fail(state, wrong);
 }
 
-// The steps between two solves of the mechanics.
-constexpr int steps_a_launch = 80;
-
 template <Form form, class Real>
 void time_tiled(benchmark::State& state, const Suite& suite, int n, int members) {
   TiledSteps<form, Real> steps(n, members);
-  const double nodes = static_cast<double>(n) * n * members * steps_a_launch;
-  const double seconds = measure(state, batch_of(nodes), [&] { steps(steps_a_launch); });
-  report_steps<Real>(state, suite, seconds, nodes, traffic_of<Real>(form));
+  const double nodes = static_cast<double>(n) * n * members * steps_between_solves;
+  const double seconds = measure(state, batch_of(nodes), [&] { steps(steps_between_solves); });
+  report_steps<Real>(state, suite, seconds, nodes, tiled_traffic_of<Real>(form, steps.depth()));
 
   // The same bits as single steps, where the metric comes from the same numbers.
   constexpr bool from_nodes = form == Form::conservative;

@@ -20,6 +20,7 @@ struct Traffic {
 inline constexpr double reaction_flops = 29;
 inline constexpr double identity_flops = reaction_flops + 6;
 inline constexpr double conservative_flops = reaction_flops + 24;
+inline constexpr double metric_from_nodes_flops = 30;
 inline constexpr double expanded_flops = reaction_flops + 26;
 
 // V read, V_next written, r and Ta in place, and `coefficients` arrays.
@@ -27,6 +28,13 @@ template <class Real>
 constexpr Traffic step_traffic(int coefficients, double flops) {
   constexpr double real = sizeof(Real);
   return {(3 + coefficients) * real, 3 * real, real, flops};
+}
+
+// V, r and Ta from old arrays to new ones, and the coefficients, once for `depth` steps.
+template <class Real>
+constexpr Traffic tiled_traffic(int coefficients, double flops, double depth) {
+  constexpr double real = sizeof(Real);
+  return {(3 + coefficients) * real / depth, 3 * real / depth, 3 * real / depth, flops};
 }
 
 // V, r and Ta from old arrays to new ones.

@@ -184,9 +184,8 @@ struct TiledStep {
   KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team, const Tile& tile) const {
     const int depth = plan.depth, all = scratch_rows(depth);
     constexpr int fast = scratch_level;  // taken by reference, which a device can't of a static member
-    auto* const scratch = static_cast<Real*>(
-        team.team_scratch(fast)
-            .get_shmem_aligned(scratch_bytes(depth) - detail::line_bytes, detail::line_bytes));
+    auto* const scratch = static_cast<Real*>(team.team_scratch(fast).get_shmem_aligned(
+        scratch_bytes(depth) - detail::line_bytes, detail::line_bytes));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, all), [&](int n) {
       Real* const row = scratch + n * pitch;
       for (int j = 0; j < line; ++j) row[j] = 0;

@@ -18,10 +18,6 @@ namespace myowave::transfer {
 template <class Real, class MemorySpace>
 struct DeformedDiffusion {
   using Scalar = Real;
-  using Space = MemorySpace;
-  using ConstView = EnsembleField<const Real, MemorySpace>;
-  static constexpr const char* name = "conservative";
-  static constexpr bool mirrored_edges = true;
 
   tissue::Grid grid;
   elastic::ElementGrid elements;
