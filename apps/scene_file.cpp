@@ -474,6 +474,12 @@ class SceneReader {
       if (scene_.grid.rows != scene_.grid.columns)
         check_divides("rows", scene_.grid.rows, mechanics.cells_per_element);
     }
+    if (fine({"tension.law", "mechanics.contraction"}) && scene_.tension.law == "none" &&
+        mechanics.contraction)
+      conflict(
+          {"tension.law", "mechanics.contraction", "mechanics"},
+          "tension.law = \"none\" leaves mechanics.contraction = true without a tension; set it to false, or "
+          "the law to \"delayed\" or \"printed\"");
     if (fine({"mechanics.c1", "mechanics.c2"}) && mechanics.c1 == 0 && mechanics.c2 == 0) {
       conflict({"mechanics.c1", "mechanics.c2"},
                "mechanics.c1 and mechanics.c2 are both 0: a sheet without stiffness has no equilibrium");
@@ -577,6 +583,9 @@ class SceneReader {
         conflict({path + ".contraction"},
                  fmt::format("{}.contraction = true needs [mechanics]; this scene is rigid", path));
       }
+      if (fine({"tension.law", path + ".law"}) && one.contraction && one.tension.law == "none")
+        conflict({path + ".contraction", path + ".law", "tension.law"},
+                 fmt::format("{}.contraction = true needs a tension.law other than \"none\"", path));
       if (fine({"time.dt", path + ".duration"})) check_step_count(path + ".duration", one.duration);
       const bool own_rates =
           std::ranges::any_of(std::array{".law", ".eps0", ".eps_below", ".eps_above"},

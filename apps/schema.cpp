@@ -64,13 +64,14 @@ Choice choice(std::vector<std::string_view> names, At at) {
           [at](Target& target, std::size_t value) { at(target) = static_cast<Enum>(value); }};
 }
 
-// Relaxation rates of the two tension laws, 1/t.u. `delayed` peaks at 185 ms and shortens by 25 %
-// as Fig 2a shows; `printed` is Eq 23 with eps0 = 1.
+// Relaxation rates of the tension laws, 1/t.u. `delayed` peaks at 185 ms and shortens by 25 %
+// as Fig 2a shows; `printed` is Eq 23 with eps0 = 1; with `none` there is no Ta to relax.
 struct TensionLaw {
   std::string_view name;
   double eps_below, eps_above;
 };
-constexpr std::array<TensionLaw, 2> tension_laws{{{"delayed", 1.0, 0.1}, {"printed", 1.0, 10.0}}};
+constexpr std::array<TensionLaw, 3> tension_laws{
+    {{"delayed", 1.0, 0.1}, {"printed", 1.0, 10.0}, {"none", 0.0, 0.0}}};
 
 Choice tension_law() {
   Choice law;
@@ -152,7 +153,9 @@ std::vector<Section> make_schema() {
       {"tension",
        "Active tension (Eqs 22c, 23): Ta relaxes to k_Ta V at the rate eps_below or eps_above.",
        {{"law", "", tension_law(),
-         "Rates below and above the threshold: `delayed` 1 and 0.1 (Fig 2a), `printed` 1 and 10 (Eq 23)."},
+         "Rates below and above the threshold: `delayed` 1 and 0.1 (Fig 2a), `printed` 1 and 10 (Eq 23). "
+         "`none`: "
+         "Ta is not computed and stays 0."},
         {"eps0", "", tension_eps0(), "Factor on both rates of the law.", "1"},
         {"k_Ta", "kPa", number(MYOWAVE_AT(tension.k_Ta), not_negative),
          "Tension at V = 1. Above 60 the sheet can lose ellipticity."},

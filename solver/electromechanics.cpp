@@ -122,7 +122,7 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
                                               scene.mechanics ? scene.mechanics->cells_per_element : 1)),
       state_{View("myowave::solver::V", 1, grid_.rows, grid_.columns),
              View("myowave::solver::r", 1, grid_.rows, grid_.columns),
-             View("myowave::solver::Ta", 1, grid_.rows, grid_.columns)},
+             {}},
       spare_{View("myowave::solver::V_next", 1, grid_.rows, grid_.columns), {}, {}},
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
@@ -130,11 +130,14 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       stimuli_("myowave::solver::stimuli", scene.stimuli.size()) {
   upload(state_.V, state.V);
   upload(state_.r, state.r);
-  upload(state_.Ta, state.Ta);
+  if (has_tension(scene)) {
+    state_.Ta = View("myowave::solver::Ta", 1, grid_.rows, grid_.columns);
+    upload(state_.Ta, state.Ta);
+  }
   // Single steps update r and Ta in place.
   if (steps_in_tiles(form_)) {
     spare_.r = View("myowave::solver::r_next", 1, grid_.rows, grid_.columns);
-    spare_.Ta = View("myowave::solver::Ta_next", 1, grid_.rows, grid_.columns);
+    if (has_tension(scene)) spare_.Ta = View("myowave::solver::Ta_next", 1, grid_.rows, grid_.columns);
   }
 
   std::vector<std::int64_t> nodes;
@@ -287,8 +290,10 @@ void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count) {
   std::visit(
       [&](const auto& form) {
         if constexpr (std::decay_t<decltype(form.diffusion)>::mirrored_edges)
-          tissue::tiled_steps(space_, form.diffusion, model_, scene_.time.dt, count, state_, spare_, first,
-                              record);
+          with_model(scene_, model_, [&](const auto& model) {
+            tissue::tiled_steps(space_, form.diffusion, model, scene_.time.dt, count, state_, spare_, first,
+                                record);
+          });
       },
       form_);
 }
@@ -299,8 +304,10 @@ void Electromechanics<ExecutionSpace, Real>::single_step(int n,
   observe::record_probes(space_, state_.V, probe_nodes_, probe_record_.device, n);
   std::visit(
       [&](const auto& form) {
-        tissue::monodomain_step(space_, form.diffusion, model_, scene_.time.dt, state_.V, state_.r, state_.Ta,
-                                spare_.V);
+        with_model(scene_, model_, [&](const auto& model) {
+          tissue::monodomain_step(space_, form.diffusion, model, scene_.time.dt, state_.V, state_.r,
+                                  state_.Ta, spare_.V);
+        });
       },
       form_);
   for (const auto& stimulus : stimuli)
@@ -311,7 +318,8 @@ void Electromechanics<ExecutionSpace, Real>::single_step(int n,
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::check_finite(double t) const {
   const Timer timer(phases_->observe);
-  const long node = observe::first_non_finite(space_, state_.V, state_.r, state_.Ta);
+  const View& Ta = has_tension(scene_) ? state_.Ta : state_.r;  // r, seen twice, where there is none
+  const long node = observe::first_non_finite(space_, state_.V, state_.r, Ta);
   if (node < 0) return;
   const int row = static_cast<int>(node / grid_.columns), column = static_cast<int>(node % grid_.columns);
   const auto value = [&](const View& view) {
@@ -322,7 +330,7 @@ void Electromechanics<ExecutionSpace, Real>::check_finite(double t) const {
   throw NumericalFailure(fmt::format(
       "t = {:.6g} t.u.: the excitation is not finite at node (row {}, column {}): V = {}, r = {}, Ta = {}. "
       "Use a smaller time.dt, or look at the stimulus amplitude and at excitation.k and mu2",
-      t, row, column, value(state_.V), value(state_.r), value(state_.Ta)));
+      t, row, column, value(state_.V), value(state_.r), has_tension(scene_) ? value(state_.Ta) : 0.0));
 }
 
 template <class ExecutionSpace, class Real>
@@ -370,7 +378,8 @@ template <class ExecutionSpace, class Real>
 std::vector<double> Electromechanics<ExecutionSpace, Real>::probe_values() const {
   observe::record_probes(space_, state_.V, probe_nodes_, probe_values_.device, 0);
   observe::record_probes(space_, state_.r, probe_nodes_, probe_values_.device, 1);
-  observe::record_probes(space_, state_.Ta, probe_nodes_, probe_values_.device, 2);
+  if (has_tension(scene_))  // else the row stays 0
+    observe::record_probes(space_, state_.Ta, probe_nodes_, probe_values_.device, 2);
   Kokkos::deep_copy(space_, probe_values_.host, probe_values_.device);
   space_.fence("myowave::solver::probe_values");
   std::vector<double> values;
@@ -381,7 +390,8 @@ std::vector<double> Electromechanics<ExecutionSpace, Real>::probe_values() const
 
 template <class ExecutionSpace, class Real>
 InitialState Electromechanics<ExecutionSpace, Real>::download() const {
-  return {grid_.rows, grid_.columns, to_host(state_.V), to_host(state_.r), to_host(state_.Ta)};
+  return {grid_.rows, grid_.columns, to_host(state_.V), to_host(state_.r),
+          has_tension(scene_) ? to_host(state_.Ta) : std::vector<double>(state_.V.size())};
 }
 
 template <class ExecutionSpace, class Real>

@@ -297,8 +297,9 @@ std::uint64_t memory_bytes(const Scene& scene) {
   const auto nodes =
       static_cast<std::uint64_t>(scene.grid.rows) * static_cast<std::uint64_t>(scene.grid.columns);
   const std::uint64_t real = scene.precision == Precision::float32 ? sizeof(float) : sizeof(double);
-  // V twice, r and Ta twice where steps go tile by tile
-  const std::uint64_t state_fields = scene.mechanics && scene.metric == MetricForm::expanded ? 4 : 6;
+  // V twice, r and Ta twice where steps go tile by tile.
+  const std::uint64_t copies = scene.mechanics && scene.metric == MetricForm::expanded ? 1 : 2;
+  const std::uint64_t state_fields = 2 + copies * (has_tension(scene) ? 2 : 1);
   constexpr std::uint64_t host_fields = 3 + 3;          // initial and sampled V, r, Ta, float64
   constexpr std::uint64_t conservative_fields = 4 + 3;  // weights, scratch of their refresh
   constexpr std::uint64_t expanded_fields = 5;
@@ -323,11 +324,11 @@ std::uint64_t memory_bytes(const Scene& scene) {
 std::vector<std::string> model_in_words(const Scene& scene) {
   std::vector<std::string> words;
   const auto& grid = scene.grid;
-  words.push_back(
-      fmt::format("Aliev-Panfilov excitation with active tension ({} law), {} x {} nodes, {}, explicit "
-                  "Euler, dt = {} t.u.",
-                  scene.tension.law, grid.rows, grid.columns,
-                  scene.precision == Precision::float32 ? "float32" : "float64", scene.time.dt));
+  words.push_back(fmt::format(
+      "Aliev-Panfilov excitation {}, {} x {} nodes, {}, explicit Euler, dt = {} t.u.",
+      has_tension(scene) ? fmt::format("with active tension ({} law)", scene.tension.law)
+                         : std::string("without tension"),
+      grid.rows, grid.columns, scene.precision == Precision::float32 ? "float32" : "float64", scene.time.dt));
   if (!scene.mechanics) {
     words.push_back("rigid sheet: no mechanics, no feedback; 5-point diffusion");
   } else {

@@ -38,7 +38,7 @@ struct ExcitationSettings {
 
 // Eqs 22c, 23.
 struct TensionSettings {
-  std::string law = "delayed";  // "delayed" | "printed"
+  std::string law = "delayed";  // "delayed" | "printed" | "none": no Ta
   double k_Ta = 47.9;           // kPa
   double eps_below = 1.0;       // 1/t.u., V below threshold
   double eps_above = 0.1;       // 1/t.u., V at or above threshold
@@ -122,5 +122,7 @@ struct Scene {
   Precision precision = Precision::float64;
   OutputSettings output;
 };
+
+inline bool has_tension(const Scene& scene) { return scene.tension.law != "none"; }
 
 }  // namespace myowave::solver

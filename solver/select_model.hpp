@@ -16,6 +16,10 @@ namespace myowave::solver {
 template <class Real>
 using Model = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::ActiveTension<Real>>;
 
+// Where nothing asks for Ta.
+template <class Real>
+using ModelWithoutTension = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::NoTension>;
+
 // One form of the diffusion term with what refreshes its metric.
 
 template <class ExecutionSpace, class Real>
@@ -60,6 +64,15 @@ Model<Real> make_model(const ExcitationSettings& e, const TensionSettings& t) {
           {Real(t.k_Ta), Real(t.eps_below), Real(t.eps_above), Real(t.threshold)},
           Real(e.D),
           Real(1 / e.C_m)};
+}
+
+// action(model), with Ta or without.
+template <class Real, class Action>
+void with_model(const Scene& scene, const Model<Real>& model, const Action& action) {
+  if (has_tension(scene))
+    action(model);
+  else
+    action(ModelWithoutTension<Real>{model.cell, {}, model.D, model.inverse_C_m});
 }
 
 }  // namespace myowave::solver

@@ -146,6 +146,13 @@ const BadScene bad_scenes[] = {
     {"negative_seed", "[initial]\nseed = -1", ":2:8: initial.seed must be an integer >= 0, not -1"},
     {"precondition_without_duration", "[initial.precondition]\nmu1 = 0.1",
      ":1:1: initial.precondition.duration is missing: a number > 0 (t.u.)"},
+    {"contraction_without_tension", "[tension]\nlaw = 'none'\n[mechanics]",
+     ":2:7: tension.law = \"none\" leaves mechanics.contraction = true without a tension; set it to false, "
+     "or the "
+     "law to \"delayed\" or \"printed\""},
+    {"contraction_of_a_precondition_without_tension",
+     "[mechanics]\n[[initial.precondition]]\nduration = 5\ncontraction = true\nlaw = 'none'",
+     ":4:15: initial.precondition.0.contraction = true needs a tension.law other than \"none\""},
     {"contraction_of_a_rigid_scene", "[[initial.precondition]]\nduration = 5\ncontraction = true",
      ":3:15: initial.precondition.0.contraction = true needs [mechanics]; this scene is rigid"},
     {"stimulus_without_amplitude", "[[stimulus]]\nstart = 3",
@@ -208,7 +215,7 @@ TEST(bad_scenes, all_errors_come_at_once_in_the_order_of_the_file) {
             "bad.toml:3:1: unknown key \"t_emd\" in [time]; did you mean \"t_end\"?\n"
             "bad.toml:5:5: grid.n must be an integer or [rows, columns], each 2 to 10000000, not 1\n"
             "bad.toml:6:6: grid.dx must be a number > 0 (length units), not -1\n"
-            "bad.toml:8:7: tension.law must be \"delayed\" or \"printed\", not \"late\"\n"
+            "bad.toml:8:7: tension.law must be \"delayed\" or \"printed\" or \"none\", not \"late\"\n"
             "--set excitation.mu2: excitation.mu2 must be a number > 0, not 0\n"
             "--set grid.m: unknown key \"m\" in [grid]; keys: n, dx");
 }

@@ -146,6 +146,31 @@ TEST(RunInvariants, StabilityBoundFollowsTheMedium) {
   EXPECT_DOUBLE_EQ(solver::largest_stable_dt(scene, 2), usual);
 }
 
+// A law "none" drops Ta and nothing else: the same bits of V and r, tile by tile and step by step.
+TEST(RunInvariants, WithoutTensionVAndRAreTheSame) {
+  Scene scene = spiral(61);
+  scene.time.t_end = 20;
+  scene.output.probes = {{15, 15}, {30, 45}};
+  scene.stimuli.push_back({.start = 5, .amplitude = 0.5});
+  for (const bool deforms : {false, true}) {
+    if (deforms) scene.mechanics.emplace().contraction = false;
+    scene.tension.law = "delayed";
+    const Result with = run(scene);
+    scene.tension.law = "none";
+    const Result without = run(scene);
+    EXPECT_EQ(without.state.V, with.state.V);
+    EXPECT_EQ(without.state.r, with.state.r);
+    EXPECT_EQ(without.state.Ta, std::vector<double>(with.state.Ta.size()));
+    EXPECT_GT(*std::max_element(with.state.Ta.begin(), with.state.Ta.end()), 10);
+    EXPECT_THAT(without.summary.model, ::testing::Contains(HasSubstr("excitation without tension")));
+    EXPECT_LT(solver::memory_bytes(scene), [&] {
+      Scene other = scene;
+      other.tension.law = "delayed";
+      return solver::memory_bytes(other);
+    }());
+  }
+}
+
 TEST(RunInvariants, ContractionPastTheStabilityBoundStopsTheRun) {
   Scene scene;
   scene.grid = {41, 41, 0.6};
