@@ -37,7 +37,18 @@ struct NoRecorder {
                                   int /*end*/, const Real* /*V from column begin on*/) const {}
 };
 
-template <class ExecutionSpace, class Diffusion, class Model, class Recorder>
+template <class ExecutionSpace>
+inline constexpr bool runs_on_host =
+    Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
+
+// Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
+// of a front run between two barriers: a level must not read what the one below writes at the same front.
+// One thread alone has no such care, and fewer rows on the way.
+template <class ExecutionSpace>
+inline constexpr int tile_lag = runs_on_host<ExecutionSpace> ? 1 : 2;
+
+template <class ExecutionSpace, class Diffusion, class Model, class Recorder,
+          int lag = tile_lag<ExecutionSpace>>
 struct TiledStep {
   using Real = typename Diffusion::Scalar;
   using MemorySpace = typename ExecutionSpace::memory_space;
@@ -46,10 +57,7 @@ struct TiledStep {
   using TeamMember = typename Policy::member_type;
   using Columns = TeamColumns<TeamMember>;
 
-  static constexpr bool on_host = Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
-  // On a device all levels of a front run between two barriers: a level must not read what the one below
-  // writes at the same front. One thread alone has no such care, and fewer rows on the way.
-  static constexpr int lag = on_host ? 1 : 2;
+  static constexpr bool on_host = runs_on_host<ExecutionSpace>;
   // Rows i - 1 ... i + lag of V between two levels. Slots are powers of two, so that a row finds its own
   // without a division.
   static constexpr int V_slots = 4;
@@ -119,6 +127,23 @@ struct TiledStep {
       if (cost < least) least = cost, best.rows = rows;
     }
     return best;
+  }
+
+  // Launches plan.depth steps, numbered from first_step on for record(columns, m, i, step, begin, end, V),
+  // which sees V of the owned columns of row i before each step. No fence. plan.columns is a multiple of a
+  // line's entries, or all columns.
+  static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
+                     const TilePlan& plan, const ExcitationFields<View>& old_state,
+                     const ExcitationFields<View>& new_state, int first_step = 0,
+                     const Recorder& record = {}) {
+    const int members = static_cast<int>(old_state.V.extent(0));
+    const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
+              column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
+    const TiledStep step{diffusion,    model,     Real(dt),  plan,       row_tiles,
+                         column_tiles, old_state, new_state, first_step, record};
+    Policy policy(space, members * row_tiles * column_tiles, warps, lanes);
+    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(scratch_bytes(plan.depth)));
+    Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
 
   // Owned nodes, half open, and the columns that are computed.
@@ -258,25 +283,6 @@ struct TiledStep {
   }
 };
 
-// Launches plan.depth steps, numbered from first_step on for record(columns, m, i, step, begin, end, V),
-// which sees V of the owned columns of row i before each step. No fence. plan.columns is a multiple of a
-// line's entries, or all columns.
-template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
-void tiled_step(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
-                const TilePlan& plan, const ExcitationFields<View>& old_state,
-                const ExcitationFields<View>& new_state, int first_step = 0, const Recorder& record = {}) {
-  using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
-  const int members = static_cast<int>(old_state.V.extent(0));
-  const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
-            column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
-  const Step step{
-      diffusion,  model, typename Diffusion::Scalar(dt), plan, row_tiles, column_tiles, old_state, new_state,
-      first_step, record};
-  typename Step::Policy policy(space, members * row_tiles * column_tiles, Step::warps, Step::lanes);
-  policy.set_scratch_size(Step::scratch_level, Kokkos::PerTeam(Step::scratch_bytes(plan.depth)));
-  Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
-}
-
 // Any number of steps without a stimulus, in launches of equal depth as far as it goes. The new state is in
 // `state` afterwards; `spare` are fields of the same shape.
 template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
@@ -288,8 +294,8 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
   const int launches = tiles_of(steps, Step::largest_depth());
   for (int n = 0, done = 0; n < launches; ++n) {
     const int depth = (steps - done) / (launches - n);
-    tiled_step(space, diffusion, model, dt, Step::plan_tiles(space, diffusion.grid, members, depth), state,
-               spare, first_step + done, record);
+    Step::launch(space, diffusion, model, dt, Step::plan_tiles(space, diffusion.grid, members, depth), state,
+                 spare, first_step + done, record);
     std::swap(state, spare);
     done += depth;
   }

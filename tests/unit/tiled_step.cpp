@@ -73,10 +73,11 @@ Fields<Real> single_steps(const Sheet& sheet, const Diffusion& diffusion, int st
   return state;
 }
 
-template <class Real, class Diffusion>
+template <class Real, int lag = tissue::tile_lag<ExecutionSpace>, class Diffusion>
 Fields<Real> one_launch(const Sheet& sheet, const Diffusion& diffusion, const tissue::TilePlan& plan) {
+  using Step = tissue::TiledStep<ExecutionSpace, Diffusion, solver::Model<Real>, tissue::NoRecorder, lag>;
   const auto state = random_state<Real>(sheet), next = empty_state<Real>(sheet);
-  tissue::tiled_step(ExecutionSpace(), diffusion, solver::make_model<Real>({}, {}), dt, plan, state, next);
+  Step::launch(ExecutionSpace(), diffusion, solver::make_model<Real>({}, {}), dt, plan, state, next);
   return next;
 }
 
@@ -132,6 +133,15 @@ TEST_P(TiledStep, MetricFromNodesIsTheLoadedOneToRounding) {
   const auto expected32 = single_steps<float>(sheet, loaded<float>(sheet), depth);
   expect_equal(one_launch<float>(sheet, from_nodes<float>(sheet), plan), expected32, sheet.columns,
                {.absolute = 2e-4});
+}
+
+// The rows on the way and their order are then those of a device.
+TEST_P(TiledStep, ADevicesLagIsSingleStepsToTheBit) {
+  const auto conservative = loaded<double>(sheet);
+  expect_equal(one_launch<double, 2>(sheet, conservative, plan),
+               single_steps<double>(sheet, conservative, depth), sheet.columns);
+  expect_equal(one_launch<float, 2>(sheet, from_nodes<float>(sheet), plan),
+               one_launch<float>(sheet, from_nodes<float>(sheet), plan), sheet.columns);
 }
 
 std::string name_of(const ::testing::TestParamInfo<std::tuple<int, int>>& test) {
