@@ -91,21 +91,20 @@ struct DeformedDiffusion {
     }
 
     KOKKOS_FORCEINLINE_FUNCTION void element_row(int I) const {
-      const auto elements = form.elements;
-      const auto nodes = form.nodes;
+      const auto mesh = form.elements;
+      const auto x = form.nodes;
       const int first = origin;
       const float per_element = 1.0f / static_cast<float>(form.cells_per_element);
       const int cells = form.cells_per_element;
-      const double inverse_h = 1 / elements.h;
+      const double inverse_h = 1 / mesh.h;
       Real* const to = edges();
       columns.each(0, cells_inside(), [=](int j) {
         // exact for sheets of up to 2^20 columns, and without a division of integers
         const int J = static_cast<int>((static_cast<float>(first + j) + 0.5f) * per_element);
         const Real xi_1 = (static_cast<Real>(first + j - J * cells) + Real(0.5)) / cells;
-        const int low = elements.node(I, J), high = elements.node(I + 1, J);
+        const int low = mesh.node(I, J), high = mesh.node(I + 1, J);
         for (int k = 0; k < 2; ++k) {
-          const double x00 = nodes(low, k), x10 = nodes(low + 1, k), x01 = nodes(high, k),
-                       x11 = nodes(high + 1, k);
+          const double x00 = x(low, k), x10 = x(low + 1, k), x01 = x(high, k), x11 = x(high + 1, k);
           const Real bottom = Real((x10 - x00) * inverse_h), top = Real((x11 - x01) * inverse_h);
           const Real left = Real((x01 - x00) * inverse_h), right = Real((x11 - x10) * inverse_h);
           to[j + k * pitch] = bottom;
