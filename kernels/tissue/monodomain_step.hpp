@@ -48,9 +48,9 @@ struct MonodomainStep {
     const auto at = [&](int j) { update(j, diffusion.at(V, m, i, j)); };
     const auto rows = rows_of(V, diffusion.grid, m, i);
     if constexpr (Diffusion::mirrored_edges) {
-      update_row<true>(lanes, {0, columns, 0, columns}, diffusion.row(rows, m, i, 0), update);
+      update_row(lanes, 0, columns, columns, diffusion.row(rows, m, i, 0), update);
     } else if (i > 0 && i < diffusion.grid.rows - 1) {
-      update_row<true>(lanes, {1, columns - 1, 0, columns}, diffusion.row(rows, m, i, 0), update);
+      update_row(lanes, 1, columns - 1, columns, diffusion.row(rows, m, i, 0), update);
       lanes.once([&]() { at(0), at(columns - 1); });
     } else {
       lanes.each(0, columns, at);

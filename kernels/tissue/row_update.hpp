@@ -55,33 +55,24 @@ struct NodeUpdate {
   }
 };
 
-// Where the columns of a row update begin and end, counted from `origin`, in a sheet of `columns`.
-struct ColumnRange {
-  int begin, end, origin, columns;
-};
-
-// Updates a range of columns of a row; those at the ends of the sheet see mirrored neighbours.
-// `from_memory`: the fields are not expected in the cache.
-template <bool from_memory, class Columns, class Row, class Update>
-KOKKOS_FORCEINLINE_FUNCTION void update_row(const Columns& columns, const ColumnRange& range, const Row& row,
-                                            const Update& update) {
-  const int left = -range.origin, right = range.columns - 1 - range.origin;
-  const int begin = Kokkos::max(range.begin, left + 1), end = Kokkos::min(range.end, right);
-  const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
-  if constexpr (from_memory) {
-    // Between 1 and 4 kB ahead it is all the same on an EPYC.
-    constexpr int ahead = 2048 / sizeof(typename Update::Real);
-    columns.template each<typename Update::Real>(begin, end, at, [=](int j) {
-      row.prefetch(j + ahead);
-      update.prefetch(j + ahead);
-    });
-  } else {
-    columns.each(begin, end, at);
-  }
-  if (range.begin <= left || range.end > right)
-    columns.once([=]() {
-      if (range.begin <= left) update(left, row(left + 1, left, left + 1));
-      if (range.end > right) update(right, row(right - 1, right, right - 1));
+// Updates columns begin <= j < end of a row in memory; those at the ends of the sheet see mirrored
+// neighbours.
+template <class Columns, class Row, class Update>
+KOKKOS_FORCEINLINE_FUNCTION void update_row(const Columns& lanes, int begin, int end, int columns,
+                                            const Row& row, const Update& update) {
+  // Between 1 and 4 kB ahead it is all the same on an EPYC.
+  constexpr int ahead = 2048 / sizeof(typename Update::Real);
+  const int right = columns - 1;
+  lanes.template each<typename Update::Real>(
+      Kokkos::max(begin, 1), Kokkos::min(end, right), [=](int j) { update(j, row(j - 1, j, j + 1)); },
+      [=](int j) {
+        row.prefetch(j + ahead);
+        update.prefetch(j + ahead);
+      });
+  if (begin == 0 || end == columns)
+    lanes.once([=]() {
+      if (begin == 0) update(0, row(1, 0, 1));
+      if (end == columns) update(right, row(right - 1, right, right - 1));
     });
 }
 
