@@ -6,6 +6,10 @@
 
 namespace myowave {
 
+template <class ExecutionSpace>
+inline constexpr bool runs_on_host =
+    Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
+
 // Hints that a line of memory will be read, or written, soon; nothing on a device.
 KOKKOS_FORCEINLINE_FUNCTION void prefetch_to_read([[maybe_unused]] const void* address) {
   KOKKOS_IF_ON_HOST((__builtin_prefetch(address, 0);))
@@ -39,24 +43,41 @@ inline void simd_loop(int begin, int end, const Body& body, const Hint& hint) {
 
 }  // namespace detail
 
-// The columns that one thread of a team loops over, with its vector lanes.
+// How the columns of a row are looped over:
 //   each(begin, end, body)         body(j) for begin <= j < end, iterations independent of one another
 //   each<Real>(..., body, hint)    the same on fields in memory; hint(j) prefetches what column j needs
 //   once(body)                     body() by one lane
+//   wait()                         for what others have written to the row; there are none on a host
+//
+// By the SIMD lanes of a host's thread.
+struct HostColumns {
+  template <class Body>
+  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body) const {
+    KOKKOS_IF_ON_HOST((detail::simd_loop(begin, end, body);))
+  }
+  template <class Real, class Body, class Hint>
+  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body, const Hint& hint) const {
+    KOKKOS_IF_ON_HOST((detail::simd_loop<Real>(begin, end, body, hint);))
+  }
+  template <class Body>
+  KOKKOS_FORCEINLINE_FUNCTION void once(const Body& body) const {
+    body();
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void wait() const {}
+};
+
+// By the vector lanes of one thread of a device's team.
 template <class TeamMember>
 struct ThreadColumns {
   const TeamMember& team;
 
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body) const {
-    KOKKOS_IF_ON_DEVICE((Kokkos::parallel_for(Kokkos::ThreadVectorRange(team, begin, end), body);))
-    KOKKOS_IF_ON_HOST((detail::simd_loop(begin, end, body);))
+    Kokkos::parallel_for(Kokkos::ThreadVectorRange(team, begin, end), body);
   }
   template <class Real, class Body, class Hint>
-  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body,
-                                        [[maybe_unused]] const Hint& hint) const {
-    KOKKOS_IF_ON_DEVICE((each(begin, end, body);))
-    KOKKOS_IF_ON_HOST((detail::simd_loop<Real>(begin, end, body, hint);))
+  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body, const Hint&) const {
+    each(begin, end, body);
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void once(const Body& body) const {
@@ -64,28 +85,24 @@ struct ThreadColumns {
   }
 };
 
-// The same for all threads of a team together; no barrier at the end.
+// By all threads of a device's team together; no barrier at the end.
 template <class TeamMember>
 struct TeamColumns {
   const TeamMember& team;
 
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body) const {
-    KOKKOS_IF_ON_DEVICE((Kokkos::parallel_for(Kokkos::TeamVectorRange(team, begin, end), body);))
-    KOKKOS_IF_ON_HOST((detail::simd_loop(begin, end, body);))
+    Kokkos::parallel_for(Kokkos::TeamVectorRange(team, begin, end), body);
   }
   template <class Real, class Body, class Hint>
-  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body,
-                                        [[maybe_unused]] const Hint& hint) const {
-    KOKKOS_IF_ON_DEVICE((each(begin, end, body);))
-    KOKKOS_IF_ON_HOST((detail::simd_loop<Real>(begin, end, body, hint);))
+  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body, const Hint&) const {
+    each(begin, end, body);
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void once(const Body& body) const {
     Kokkos::single(Kokkos::PerTeam(team), body);
   }
-  // For what other threads of the team have written.
-  KOKKOS_FORCEINLINE_FUNCTION void wait() const { KOKKOS_IF_ON_DEVICE((team.team_barrier();)) }
+  KOKKOS_FORCEINLINE_FUNCTION void wait() const { team.team_barrier(); }
 };
 
 }  // namespace myowave

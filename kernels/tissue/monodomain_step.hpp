@@ -19,8 +19,7 @@ struct MonodomainStep {
   using MemorySpace = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, MemorySpace>;
   using ConstView = EnsembleField<const Real, MemorySpace>;
-  using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
-  using TeamMember = typename Policy::member_type;
+  using TeamMember = typename Kokkos::TeamPolicy<ExecutionSpace>::member_type;
   static_assert(std::is_same_v<typename Diffusion::Space, MemorySpace>, "coefficients in another memory");
 
   Diffusion diffusion;
@@ -28,20 +27,34 @@ struct MonodomainStep {
   Real dt;
   ConstView V;
   View V_next, r, Ta;
-  int rows_per_team;
-  int teams_per_member;
+  int rows_per_block;
+  int blocks_per_member;
 
+  // A block of rows by one thread of a host.
+  KOKKOS_FUNCTION void operator()(int block) const {
+    for (int i = first_row(block); i < last_row(block); ++i)
+      advance_row(HostColumns{}, block / blocks_per_member, i);
+  }
+
+  // A block by a device's team, a row by each of its threads.
   KOKKOS_FUNCTION void operator()(const TeamMember& team) const {
-    const int m = team.league_rank() / teams_per_member;
-    const int first = (team.league_rank() % teams_per_member) * rows_per_team;
-    const int last = Kokkos::min(first + rows_per_team, diffusion.grid.rows);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first, last), [&](int i) { advance_row(team, m, i); });
+    const int block = team.league_rank();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first_row(block), last_row(block)), [&](int i) {
+      advance_row(ThreadColumns<TeamMember>{team}, block / blocks_per_member, i);
+    });
   }
 
  private:
-  KOKKOS_FORCEINLINE_FUNCTION void advance_row(const TeamMember& team, int m, int i) const {
+  KOKKOS_FORCEINLINE_FUNCTION int first_row(int block) const {
+    return block % blocks_per_member * rows_per_block;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int last_row(int block) const {
+    return Kokkos::min(first_row(block) + rows_per_block, diffusion.grid.rows);
+  }
+
+  template <class Columns>
+  KOKKOS_FORCEINLINE_FUNCTION void advance_row(const Columns& lanes, int m, int i) const {
     const int columns = diffusion.grid.columns;
-    const ThreadColumns<TeamMember> lanes{team};
     Real* const tension = Model::has_tension ? &Ta(m, i, 0) : nullptr;
     const NodeUpdate<Model> update{model,       dt,     &V(m, i, 0), &r(m, i, 0), tension, &V_next(m, i, 0),
                                    &r(m, i, 0), tension};
@@ -63,20 +76,21 @@ template <class ExecutionSpace, class Diffusion, class Model, class View>
 void monodomain_step(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                      const View& V, const View& r, const View& Ta, const View& V_next) {
   using Step = MonodomainStep<ExecutionSpace, Diffusion, Model>;
-  constexpr bool on_host = Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
   const int members = static_cast<int>(V.extent(0)), rows = diffusion.grid.rows;
-  // A device team takes a few rows with a warp of columns each. On a host a team is one thread, which takes
-  // its share of the rows at once.
-  constexpr int rows_of_device_team = 4, warp = 32;
-  const int teams = on_host ? Kokkos::min(rows, tiles_of(space.concurrency(), members))
-                            : tiles_of(rows, rows_of_device_team);
-  const int rows_per_team = tiles_of(rows, teams), teams_per_member = tiles_of(rows, rows_per_team);
-  const Step step{diffusion,     model,           typename Diffusion::Scalar(dt), V, V_next, r, Ta,
-                  rows_per_team, teams_per_member};
-  Kokkos::parallel_for("myowave::tissue::monodomain_step",
-                       typename Step::Policy(space, members * teams_per_member,
-                                             on_host ? 1 : rows_of_device_team, on_host ? 1 : warp),
-                       step);
+  // A team takes a few rows with a warp of columns each. A thread of a host takes its share of the rows at
+  // once: a range of blocks starts faster than a league of teams.
+  constexpr int rows_of_team = 4, warp = 32;
+  const int wanted = runs_on_host<ExecutionSpace> ? Kokkos::min(rows, tiles_of(space.concurrency(), members))
+                                                  : tiles_of(rows, rows_of_team);
+  const int rows_per_block = tiles_of(rows, wanted), blocks_per_member = tiles_of(rows, rows_per_block);
+  const int blocks = members * blocks_per_member;
+  const Step step{diffusion,        model, typename Diffusion::Scalar(dt), V, V_next, r, Ta, rows_per_block,
+                  blocks_per_member};
+  constexpr auto label = "myowave::tissue::monodomain_step";
+  if constexpr (runs_on_host<ExecutionSpace>)
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<ExecutionSpace>(space, 0, blocks), step);
+  else
+    Kokkos::parallel_for(label, Kokkos::TeamPolicy<ExecutionSpace>(space, blocks, rows_of_team, warp), step);
 }
 
 // dV/dt, the full right-hand side of Eq 22a, at one node.

@@ -5,14 +5,15 @@
 // step `level` = 1 ... depth on row f - lag level, so that the few rows on the way stay in the team's
 // scratch memory and every row of the sheet is read once and written once. Neighbours that other tiles own
 // are computed again: a tile begins `depth` rows and columns outside, and each step spoils one of them.
-// Old and new state must be different arrays, for other tiles read the old one; at depth 1, r and Ta may be
-// updated in place.
+// Old and new state must be different arrays, for other tiles read the old one. A tile that is a whole sheet
+// has no such neighbours and goes on for several sweeps of `depth` steps, from one array to the other and
+// back, while its member of an ensemble is in the cache.
 //
 //   view             shape                      unit   access
-//   V, r             (members, rows, columns)   -      read
-//   Ta               (members, rows, columns)   kPa    read
-//   V_next, r_next   (members, rows, columns)   -      write
-//   Ta_next          (members, rows, columns)   kPa    write
+//   V, r             (members, rows, columns)   -      read, of several sweeps also write
+//   Ta               (members, rows, columns)   kPa    read, of several sweeps also write
+//   V_next, r_next   (members, rows, columns)   -      write, of several sweeps also read
+//   Ta_next          (members, rows, columns)   kPa    write, of several sweeps also read
 #pragma once
 
 #include "kernels/tissue/row_update.hpp"
@@ -25,9 +26,10 @@ struct ExcitationFields {
   View V, r, Ta;
 };
 
-// Nodes that a team owns, and the steps of one launch.
+// Nodes that a team owns, the steps of a sweep over them, and the sweeps of one launch, more than one only
+// where a tile is a whole sheet. After an even number of sweeps the new state is where the old one was.
 struct TilePlan {
-  int rows = 1, columns = 1, depth = 1;
+  int rows = 1, columns = 1, depth = 1, sweeps = 1;
 };
 
 // Looks at V of the owned nodes before each step; nothing by default.
@@ -36,10 +38,6 @@ struct NoRecorder {
   KOKKOS_FUNCTION void operator()(const Columns&, int /*m*/, int /*i*/, int /*step*/, int /*begin*/,
                                   int /*end*/, const Real* /*V from column begin on*/) const {}
 };
-
-template <class ExecutionSpace>
-inline constexpr bool runs_on_host =
-    Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
 
 // Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
 // of a front run between two barriers: a level must not read what the one below writes at the same front.
@@ -55,9 +53,9 @@ struct TiledStep {
   using View = EnsembleField<Real, MemorySpace>;
   using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
   using TeamMember = typename Policy::member_type;
-  using Columns = TeamColumns<TeamMember>;
-
   static constexpr bool on_host = runs_on_host<ExecutionSpace>;
+  using Columns = std::conditional_t<on_host, HostColumns, TeamColumns<TeamMember>>;
+
   // Rows i - 1 ... i + lag of V between two levels. Slots are powers of two, so that a row finds its own
   // without a division.
   static constexpr int V_slots = 4;
@@ -129,9 +127,9 @@ struct TiledStep {
     return best;
   }
 
-  // Launches plan.depth steps, numbered from first_step on for record(columns, m, i, step, begin, end, V),
-  // which sees V of the owned columns of row i before each step. No fence. plan.columns is a multiple of a
-  // line's entries, or all columns.
+  // Launches plan.sweeps times plan.depth steps, numbered from first_step on for
+  // record(columns, m, i, step, begin, end, V), which sees V of the owned columns of row i before each step.
+  // No fence. plan.columns is a multiple of a line's entries, or all columns.
   static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                      const TilePlan& plan, const ExcitationFields<View>& old_state,
                      const ExcitationFields<View>& new_state, int first_step = 0,
@@ -168,31 +166,54 @@ struct TiledStep {
     KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + pitch; }
   };
 
+  // From where to where the steps of a sweep go.
+  struct Sweep {
+    const ExcitationFields<View>&from, &to;
+    int first_step;
+  };
+
   KOKKOS_FUNCTION void operator()(const TeamMember& team) const {
     const Tile tile = tile_of(team.league_rank());
-    const int depth = plan.depth, rows = diffusion.grid.rows;
-    const Columns columns{team};
+    const Columns columns = columns_of(team);
     const Rings rings = make_rings(team, tile);
     const auto metric = diffusion.template metric_rows<pitch>(columns, tile.member, tile.origin, tile.width,
-                                                              rings.metric_begin, metric_slots(depth));
+                                                              rings.metric_begin, metric_slots(plan.depth));
+    for (int n = 0; n < plan.sweeps; ++n) {
+      const bool back = n % 2 == 1;
+      go_up(team, tile, rings, metric,
+            {back ? new_state : old_state, back ? old_state : new_state, first_step + n * plan.depth});
+    }
+  }
 
+ private:
+  template <class Metric>
+  KOKKOS_FORCEINLINE_FUNCTION void go_up(const TeamMember& team, const Tile& tile, const Rings& rings,
+                                         const Metric& metric, const Sweep& sweep) const {
+    const int depth = plan.depth, rows = diffusion.grid.rows;
+    const Columns columns = columns_of(team);
     const int first = Kokkos::max(0, tile.first_row - depth);
     const int top = Kokkos::min(rows, tile.last_row + depth);
     metric.begin(Kokkos::max(0, tile.first_row - depth + 1));
     for (int front = first; front < tile.last_row + lag * depth; ++front) {
-      if (front < top) load(columns, tile, rings, front);
+      if (front < top) load(columns, tile, sweep, rings, front);
       for (int level = 1; level <= depth; ++level) {
         const int i = front - lag * level, halo = depth - level;
         if (i < Kokkos::max(0, tile.first_row - halo) || i >= Kokkos::min(rows, tile.last_row + halo))
           continue;
         if (level == 1) metric.prepare(i);
-        advance(columns, tile, rings, metric, level, i);
+        advance(columns, tile, sweep, rings, metric, level, i);
       }
       team.team_barrier();
     }
   }
 
- private:
+  KOKKOS_FORCEINLINE_FUNCTION static Columns columns_of([[maybe_unused]] const TeamMember& team) {
+    if constexpr (on_host)
+      return {};
+    else
+      return {team};
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION Tile tile_of(int rank) const {
     const int tiles = row_tiles * column_tiles, tile = rank % tiles, columns = diffusion.grid.columns;
     const int first_row = tile / column_tiles * plan.rows, first_column = tile % column_tiles * plan.columns;
@@ -233,10 +254,10 @@ struct TiledStep {
     });
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void load(const Columns& columns, const Tile& tile, const Rings& rings,
-                                        int i) const {
+  KOKKOS_FORCEINLINE_FUNCTION void load(const Columns& columns, const Tile& tile, const Sweep& sweep,
+                                        const Rings& rings, int i) const {
     Real* const V = rings.V(0, i);
-    const Real* const from = &old_state.V(tile.member, i, tile.origin);
+    const Real* const from = &sweep.from.V(tile.member, i, tile.origin);
     const Real* const next = from + diffusion.grid.columns;
     columns.template each<Real>(
         0, tile.inside, [=](int j) { V[j] = from[j]; }, [=](int j) { prefetch_to_read(next + j); });
@@ -244,25 +265,26 @@ struct TiledStep {
   }
 
   template <class Metric>
-  KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Rings& rings,
-                                           const Metric& metric, int level, int i) const {
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Sweep& sweep,
+                                           const Rings& rings, const Metric& metric, int level, int i) const {
     const int m = tile.member, origin = tile.origin, rows = diffusion.grid.rows;
     const StencilRows<Real> V{rings.V(level - 1, mirrored(i - 1, rows)), rings.V(level - 1, i),
                               rings.V(level - 1, mirrored(i + 1, rows))};
     const int owned = tile.first_column - origin;
     if (i >= tile.first_row && i < tile.last_row)
-      record(columns, m, i, first_step + level - 1, tile.first_column, tile.last_column, V.here + owned);
+      record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column,
+             V.here + owned);
     const auto row = metric.row(V, i);
     const bool first = level == 1, last = level == plan.depth;
     const int next_row = diffusion.grid.columns;
     const NodeUpdate<Model> update{model,
                                    dt,
                                    V.here,
-                                   first ? &old_state.r(m, i, origin) : rings.r(i),
-                                   tension(first, old_state.Ta, rings, m, i, origin),
-                                   last ? &new_state.V(m, i, origin) : rings.V(level, i),
-                                   last ? &new_state.r(m, i, origin) : rings.r(i),
-                                   tension(last, new_state.Ta, rings, m, i, origin)};
+                                   first ? &sweep.from.r(m, i, origin) : rings.r(i),
+                                   tension(first, sweep.from.Ta, rings, m, i, origin),
+                                   last ? &sweep.to.V(m, i, origin) : rings.V(level, i),
+                                   last ? &sweep.to.r(m, i, origin) : rings.r(i),
+                                   tension(last, sweep.to.Ta, rings, m, i, origin)};
     const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
     if (last)
       columns.template each<Real>(owned, tile.last_column - origin, at,
@@ -283,7 +305,7 @@ struct TiledStep {
   }
 };
 
-// Any number of steps without a stimulus, in launches of equal depth as far as it goes. The new state is in
+// Any number of steps without a stimulus, in sweeps of equal depth as far as it goes. The new state is in
 // `state` afterwards; `spare` are fields of the same shape.
 template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
 void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
@@ -291,13 +313,16 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
                  const Recorder& record = {}) {
   using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
   const int members = static_cast<int>(state.V.extent(0));
-  const int launches = tiles_of(steps, Step::largest_depth());
-  for (int n = 0, done = 0; n < launches; ++n) {
-    const int depth = (steps - done) / (launches - n);
-    Step::launch(space, diffusion, model, dt, Step::plan_tiles(space, diffusion.grid, members, depth), state,
-                 spare, first_step + done, record);
-    std::swap(state, spare);
-    done += depth;
+  const int sweeps = tiles_of(steps, Step::largest_depth());
+  for (int n = 0, done = 0; n < sweeps;) {
+    TilePlan plan = Step::plan_tiles(space, diffusion.grid, members, (steps - done) / (sweeps - n));
+    const bool whole_sheets = plan.rows == diffusion.grid.rows && plan.columns == diffusion.grid.columns;
+    const int deeper = (steps - done) % (sweeps - n);  // of those to come are one step deeper
+    if (whole_sheets) plan.sweeps = sweeps - n - deeper;
+    Step::launch(space, diffusion, model, dt, plan, state, spare, first_step + done, record);
+    if (plan.sweeps % 2 == 1) std::swap(state, spare);
+    n += plan.sweeps;
+    done += plan.sweeps * plan.depth;
   }
 }
 
