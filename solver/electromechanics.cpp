@@ -287,13 +287,15 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count) {
   const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns};
+  const auto take = [&](const auto& diffusion) {
+    with_model(scene_, model_, [&](const auto& model) {
+      tissue::tiled_steps(space_, diffusion, model, scene_.time.dt, count, state_, spare_, first, record);
+    });
+  };
   std::visit(
       [&](const auto& form) {
         if constexpr (std::decay_t<decltype(form.diffusion)>::mirrored_edges)
-          with_model(scene_, model_, [&](const auto& model) {
-            tissue::tiled_steps(space_, form.diffusion, model, scene_.time.dt, count, state_, spare_, first,
-                                record);
-          });
+          with_fastest_metric<ExecutionSpace>(form, nodes_.device, take);
       },
       form_);
 }

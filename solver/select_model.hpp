@@ -2,6 +2,7 @@
 // the variants that are instantiated, tested and benchmarked.
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "kernels/cell/active_tension.hpp"
@@ -9,6 +10,7 @@
 #include "kernels/tissue/monodomain_step.hpp"
 #include "kernels/tissue/tiled_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
+#include "kernels/transfer/metric_rows.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::solver {
@@ -31,6 +33,7 @@ struct ModelForms {
   struct Conservative {
     tissue::ConservativeDiffusion<Real, Space> diffusion;
     transfer::ConservativeTransfer<ExecutionSpace, Real> transfer;
+    transfer::DeformedDiffusion<Real, Space> from_nodes;  // of large sheets; without the nodes
   };
   struct Expanded {
     tissue::ExpandedDiffusion<Real, Space> diffusion;
@@ -48,7 +51,8 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
   switch (form) {
     case MetricForm::conservative:
       return typename Forms::Conservative{{grid, tissue::ConservativeMetric<Real, Space>(1, grid)},
-                                          {grid, elements, cells_per_element}};
+                                          {grid, elements, cells_per_element},
+                                          {grid, elements, cells_per_element, {}}};
     case MetricForm::expanded:
       return typename Forms::Expanded{{grid, tissue::ExpandedMetric<Real, Space>(1, grid)},
                                       {grid, elements, cells_per_element}};
@@ -56,6 +60,24 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
       break;
   }
   return typename Forms::Identity{tissue::IdentityDiffusion<Real, Space>(grid)};
+}
+
+// From so many nodes on, several steps in one launch are faster on a host with the metric from the element
+// nodes, to rounding the same, than with its arrays, which no cache holds then (bench/README.md).
+inline constexpr std::int64_t nodes_of_large_sheet = 2'000'000;
+
+// action(diffusion) with the diffusion of a form that several steps in one launch take.
+template <class ExecutionSpace, class Form, class NodesView, class Action>
+void with_fastest_metric(const Form& form, const NodesView& nodes, const Action& action) {
+  if constexpr (runs_on_host<ExecutionSpace> && requires { form.from_nodes; }) {
+    const tissue::Grid& grid = form.diffusion.grid;
+    if (static_cast<std::int64_t>(grid.rows) * grid.columns >= nodes_of_large_sheet) {
+      auto diffusion = form.from_nodes;
+      diffusion.nodes = nodes;
+      return action(diffusion);
+    }
+  }
+  action(form.diffusion);
 }
 
 template <class Real>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 #include <utility>
@@ -135,6 +136,18 @@ TEST_P(TiledStep, MetricFromNodesIsTheLoadedOneToRounding) {
                {.absolute = 2e-4});
 }
 
+// The number of threads chooses the tiles.
+TEST_P(TiledStep, MetricFromNodesDoesNotDependOnTiles) {
+  const int widest = std::min(sheet.columns, 256);
+  const auto expect_same_bits = [&]<class Real>(Real) {
+    const auto diffusion = from_nodes<Real>(sheet);
+    expect_equal(one_launch<Real>(sheet, diffusion, plan),
+                 one_launch<Real>(sheet, diffusion, {sheet.rows, widest, depth}), sheet.columns);
+  };
+  expect_same_bits(double{});
+  expect_same_bits(float{});
+}
+
 // The rows on the way and their order are then those of a device.
 TEST_P(TiledStep, ADevicesLagIsSingleStepsToTheBit) {
   const auto conservative = loaded<double>(sheet);
@@ -164,6 +177,25 @@ TEST(TiledSteps, AnyNumberOfStepsInEqualLaunches) {
     tissue::tiled_steps(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt, steps, state,
                         spare);
     expect_equal(state, single_steps<double>(sheet, diffusion, steps), sheet.columns);
+  }
+}
+
+// The members of an ensemble take several sweeps in one launch, to and fro.
+TEST(TiledSteps, SweepsOverWholeSheetsAreSingleSteps) {
+  for (const int sweeps : {2, 5}) {
+    constexpr int depth = 7;
+    const auto expect_single_steps = [&](const auto& diffusion, const testing_support::Tolerance& tolerance) {
+      using Step = tissue::TiledStep<ExecutionSpace, std::decay_t<decltype(diffusion)>, solver::Model<double>,
+                                     tissue::NoRecorder>;
+      const auto state = random_state<double>(sheet), next = empty_state<double>(sheet);
+      Step::launch(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt,
+                   {sheet.rows, sheet.columns, depth, sweeps}, state, next);
+      expect_equal(sweeps % 2 == 1 ? next : state,
+                   single_steps<double>(sheet, loaded<double>(sheet), depth * sweeps), sheet.columns,
+                   tolerance);
+    };
+    expect_single_steps(loaded<double>(sheet), {});
+    expect_single_steps(from_nodes<double>(sheet), {.absolute = 1e-12});
   }
 }
 
