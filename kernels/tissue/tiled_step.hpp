@@ -86,8 +86,12 @@ struct TiledStep {
   KOKKOS_FUNCTION static constexpr int metric_slots(int depth) { return power_of_two(lag * (depth - 1) + 2); }
   // Entries of a scratch row: a line for the neighbour on the left, the columns of the widest tile and those
   // around it, and one for the neighbour on the right; an odd number of lines, so that rows do not fall on
-  // one another in a cache. Constant, so that rows at a fixed distance need no address of their own.
-  static constexpr int widest_tile = 2048 / static_cast<int>(sizeof(Real)), deepest = 15;
+  // one another in a cache. Constant, so that rows at a fixed distance need no address of their own. Wide
+  // tiles compute fewer columns twice; where the weights of edges are on the way too, a host's cache holds
+  // the rows of narrower ones only.
+  static constexpr bool without_metric = Diffusion::template scratch_rows<line>(1) == 0;
+  static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
+  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real)), deepest = 15;
   static constexpr int pitch = line * ((3 + (widest_tile + 2 * (deepest + line - 1)) / line) / 2 * 2 + 1);
   static constexpr int state_rows = Model::has_tension ? 2 : 1;
   static constexpr int scratch_rows(int depth) {
