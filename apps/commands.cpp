@@ -18,7 +18,9 @@
 #include "apps/run_folder.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/schema.hpp"
+#include "apps/stability.hpp"
 #include "myowave_version.hpp"
+#include "solver/denormals.hpp"
 #include "solver/error.hpp"
 #include "solver/run.hpp"
 
@@ -217,6 +219,20 @@ void check(const std::string& file, const std::vector<std::string>& overrides) {
 
 void describe(const std::string& section, bool markdown) {
   std::cout << (markdown ? describe_markdown() : describe(section));
+}
+
+void stability(const StabilityRequest& request) {
+  const auto maps = choose_maps(request.map);
+  RunFolder::require_free(request.out, request.force);
+  const Device device;
+  solver::flush_denormals();
+  write_maps(maps, request.out);
+}
+
+std::string map_names() {
+  std::string text = "Maps:\n";
+  for (const auto& map : solver::stability_maps()) text += fmt::format("  {:<14}{}\n", map.name, map.doc);
+  return text;
 }
 
 void info() {

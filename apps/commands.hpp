@@ -27,6 +27,18 @@ void check(const std::string& scene, const std::vector<std::string>& overrides);
 // Errors: InputError for a section that does not exist.
 void describe(const std::string& section, bool markdown);
 
+struct StabilityRequest {
+  std::string map;                    // empty: all
+  std::string out = "out/stability";  // relative to the working directory
+  bool force = false;
+};
+
+// Errors: InputError; NumericalFailure, after everything is on disk, where a wrong result passed silently.
+void stability(const StabilityRequest&);
+
+// The names of all maps, a line each with what it shows.
+std::string map_names();
+
 void info();
 
 }  // namespace myowave::apps

@@ -79,11 +79,20 @@ int main(int argc, char** argv) {
   describe->add_option("SECTION", section, "Only this section, for example mechanics");
   describe->add_flag("--markdown", markdown, "All sections as the Markdown tables of apps/README.md");
 
+  apps::StabilityRequest maps;
+  CLI::App* stability = app.add_subcommand(
+      "stability", "Map where a step is right, wrong or blows up; write tables and pictures into a folder");
+  stability->add_option("--map", maps.map, "Only this map")->type_name("NAME");
+  stability->add_option("--out", maps.out, "Result folder; without it out/stability in the working directory")
+      ->type_name("DIR");
+  stability->add_flag("--force", maps.force, "Write into a folder that already holds results");
+  stability->footer(apps::map_names());
+
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
   // CLI11 would only say that a subcommand is missing.
-  const std::vector<std::string_view> names{"run", "check", "describe", "info"};
+  const std::vector<std::string_view> names{"run", "check", "describe", "stability", "info"};
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
     const std::string meant = apps::did_you_mean(argv[1], names);
     fmt::print(stderr,
@@ -107,6 +116,7 @@ int main(int argc, char** argv) {
     if (run->parsed()) apps::run(request);
     if (check->parsed()) apps::check(request.scene, request.overrides);
     if (describe->parsed()) apps::describe(section, markdown);
+    if (stability->parsed()) apps::stability(maps);
     if (info->parsed()) apps::info();
   });
 }
