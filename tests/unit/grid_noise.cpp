@@ -1,0 +1,106 @@
+#include "kernels/observe/grid_noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/fields.hpp"
+
+namespace myowave::observe {
+namespace {
+
+using test::ExecutionSpace;
+using test::Values;
+
+template <class Function>
+Values field(int rows, int columns, const Function& value) {
+  Values V;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) V.push_back(value(i, j));
+  return V;
+}
+
+double checkerboard(int i, int j) { return (i + j) % 2 == 0 ? 1 : -1; }
+
+template <class Real = double>
+FieldRange range(int rows, int columns, const std::vector<Values>& members) {
+  return grid_noise(ExecutionSpace(), test::to_view<Real>(rows, columns, members));
+}
+
+// The plain loop: nothing of the kernel, mirrored indices written out.
+double plain_noise(int rows, int columns, const Values& V) {
+  const auto at = [&](int i, int j) {
+    const int row = i < 0 ? 1 : (i == rows ? rows - 2 : i),
+              column = j < 0 ? 1 : (j == columns ? columns - 2 : j);
+    return V[row * columns + column];
+  };
+  constexpr double weight[3] = {1, -2, 1};
+  double largest = 0;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      double sum = 0;
+      for (int a = -1; a <= 1; ++a)
+        for (int b = -1; b <= 1; ++b) sum += weight[a + 1] * weight[b + 1] * at(i + a, j + b);
+      largest = std::max(largest, std::abs(sum) / 16);
+    }
+  return largest;
+}
+
+TEST(GridNoise, OfACheckerboardIsItsAmplitude) {
+  for (const auto& [rows, columns] : {std::pair{2, 2}, {2, 7}, {3, 2}, {3, 3}, {13, 37}}) {
+    const auto V = field(rows, columns, [](int i, int j) { return 0.4 + 0.25 * checkerboard(i, j); });
+    const FieldRange found = range(rows, columns, {V});
+    EXPECT_DOUBLE_EQ(found.noise, 0.25) << rows << " x " << columns;
+    EXPECT_DOUBLE_EQ(found.min_V, 0.15);
+    EXPECT_DOUBLE_EQ(found.max_V, 0.65);
+  }
+}
+
+TEST(GridNoise, OfOneCoordinateAloneIsZero) {
+  const auto jagged = [](int n) { return std::sin(40.0 * n); };
+  EXPECT_NEAR(range(13, 37, {field(13, 37, [&](int i, int) { return jagged(i); })}).noise, 0, 1e-16);
+  EXPECT_NEAR(range(13, 37, {field(13, 37, [&](int, int j) { return jagged(j); })}).noise, 0, 1e-16);
+}
+
+TEST(GridNoise, HandCases) {
+  Values V(5 * 5, 0.0);
+  V[2 * 5 + 2] = 1;  // one node, as a stimulus of radius 0 leaves it
+  EXPECT_DOUBLE_EQ(range(5, 5, {V}).noise, 4.0 / 16);
+  // the corner of a block: what a broken front begins with
+  EXPECT_DOUBLE_EQ(range(9, 9, {field(9, 9, [](int i, int j) { return i < 4 && j < 4 ? 1 : 0; })}).noise,
+                   1.0 / 16);
+}
+
+// cos(q i) cos(q j), whose mirror images at all edges are its own continuation: sin^4(q / 2).
+TEST(GridNoise, OfAWaveFallsWithTheFourthPowerOfItsWavenumber) {
+  constexpr int n = 61;
+  for (const int half_waves : {2, 5, 10, 20, 60}) {
+    const double q = half_waves * std::numbers::pi / (n - 1);
+    const auto V = field(n, n, [&](int i, int j) { return std::cos(q * i) * std::cos(q * j); });
+    EXPECT_NEAR(range(n, n, {V}).noise, std::pow(std::sin(q / 2), 4), 1e-13);
+  }
+}
+
+TEST(GridNoise, EqualsThePlainLoopOnRoughFieldsOfSeveralMembers) {
+  for (const auto& [rows, columns] : {std::pair{2, 3}, {13, 37}, {40, 65}}) {
+    std::vector<Values> members;
+    for (unsigned seed = 0; seed < 3; ++seed)
+      members.push_back(test::random_field(rows * columns, -1.5, 2.5, seed));
+    const FieldRange found = range(rows, columns, members), in_floats = range<float>(rows, columns, members);
+    double noise = 0, low = 9, high = -9;
+    for (const auto& V : members) {
+      noise = std::max(noise, plain_noise(rows, columns, V));
+      low = std::min(low, *std::ranges::min_element(V));
+      high = std::max(high, *std::ranges::max_element(V));
+    }
+    EXPECT_NEAR(found.noise, noise, 1e-14);
+    EXPECT_EQ(found.min_V, low);
+    EXPECT_EQ(found.max_V, high);
+    EXPECT_NEAR(in_floats.noise, noise, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace myowave::observe
