@@ -20,7 +20,6 @@
 #include "apps/schema.hpp"
 #include "apps/stability.hpp"
 #include "myowave_version.hpp"
-#include "solver/denormals.hpp"
 #include "solver/error.hpp"
 #include "solver/run.hpp"
 
@@ -225,7 +224,6 @@ void stability(const StabilityRequest& request) {
   const auto maps = choose_maps(request.map);
   RunFolder::require_free(request.out, request.force);
   const Device device;
-  solver::flush_denormals();
   write_maps(maps, request.out);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,8 @@ constexpr int plot_width = 300, plot_height = 240;
 constexpr int left = 66, right = 18, top = 34, bottom = 50;  // around a plot
 constexpr int legend_height = 36;
 constexpr int panels_in_a_row = 2;
+
+constexpr std::array<std::string_view, 3> line_dashes{"none", "7 4", "2 3"};
 
 // From light to dark, so that a worse outcome is darker in grey and to colour-blind eyes too.
 constexpr std::array<std::string_view, 5> colours{"#fbf1b8", "#fdc776", "#ee7b30", "#b3263a", "#3f0d3a"};
@@ -47,11 +50,20 @@ std::size_t column_of(const MapTable& table, const std::string& name) {
   return static_cast<std::size_t>(found - table.columns.begin());
 }
 
-std::string axis_label(const solver::MapColumn& column) {
-  return column.unit.empty() ? column.name : fmt::format("{} ({})", column.name, column.unit);
+double number(const MapTable& table, const solver::MapRow& row, const std::string& column) {
+  return std::get<double>(row.cells[column_of(table, column)]);
 }
 
-double number(const solver::MapRow& row, std::size_t column) { return std::get<double>(row.cells[column]); }
+// Of a column that is drawn along y.
+double y_number(const MapTable& table, const solver::MapRow& row, const std::string& column) {
+  const std::string& divisor = table.view->y_in;
+  return number(table, row, column) / (divisor.empty() ? 1 : number(table, row, divisor));
+}
+
+std::string with_unit(const MapTable& table, const std::string& name) {
+  const std::string& unit = table.columns[column_of(table, name)].unit;
+  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
 
 std::string text_of(const solver::MapCell& cell) {
   if (const auto* value = std::get_if<double>(&cell)) return fmt::format("{:g}", *value);
@@ -83,7 +95,7 @@ struct Axis {
     const double part = rough / decade;
     const double step = decade * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
     for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n)
-      values.push_back(n * step);
+      values.push_back(n * step + 0.0);  // never -0
     return values;
   }
 };
@@ -114,7 +126,7 @@ struct Rectangle {
 
 struct Panel {
   std::vector<Rectangle> cells;
-  std::map<double, double> line;  // y over x
+  std::vector<std::map<double, double>> lines;  // y over x
 };
 
 // By title, in the order of the table.
@@ -127,9 +139,29 @@ std::string panel_title(const MapTable& table, const solver::MapRow& row) {
   return title;
 }
 
-Panels make_panels(const MapTable& table) {
+Panel make_panel(const MapTable& table, const std::vector<const solver::MapRow*>& rows) {
   const solver::MapView& view = *table.view;
-  const std::size_t x = column_of(table, view.x), y = column_of(table, view.y);
+  Panel panel{{}, std::vector<std::map<double, double>>(view.lines.size())};
+  std::vector<double> all_x;
+  std::map<double, std::vector<double>> all_y;
+  for (const auto* row : rows) {
+    const double x = number(table, *row, view.x);
+    all_x.push_back(x);
+    all_y[x].push_back(y_number(table, *row, view.y));
+    for (std::size_t n = 0; n < view.lines.size(); ++n)
+      panel.lines[n][x] = y_number(table, *row, view.lines[n].column);
+  }
+  const auto x_cells = intervals(all_x, view.log_x);
+  std::map<double, std::map<double, std::pair<double, double>>> y_cells;
+  for (const auto& [x, values] : all_y) y_cells[x] = intervals(values, view.log_y);
+  for (const auto* row : rows) {
+    const double x = number(table, *row, view.x);
+    panel.cells.push_back({x_cells.at(x), y_cells.at(x).at(y_number(table, *row, view.y)), row->outcome});
+  }
+  return panel;
+}
+
+Panels make_panels(const MapTable& table) {
   std::vector<std::pair<std::string, std::vector<const solver::MapRow*>>> rows;
   for (const auto& row : table.rows) {
     const std::string title = panel_title(table, row);
@@ -138,30 +170,14 @@ Panels make_panels(const MapTable& table) {
     found->second.push_back(&row);
   }
   Panels panels;
-  for (const auto& [title, of_panel] : rows) {
-    Panel panel;
-    std::vector<double> all_x;
-    std::map<double, std::vector<double>> all_y;
-    for (const auto* row : of_panel) {
-      all_x.push_back(number(*row, x));
-      all_y[number(*row, x)].push_back(number(*row, y));
-      if (!view.line.empty()) panel.line[number(*row, x)] = number(*row, column_of(table, view.line));
-    }
-    const auto x_cells = intervals(all_x, false);
-    std::map<double, std::map<double, std::pair<double, double>>> y_cells;
-    for (const auto& [at, values] : all_y) y_cells[at] = intervals(values, view.log_y);
-    for (const auto* row : of_panel) {
-      const double at = number(*row, x);
-      panel.cells.push_back({x_cells.at(at), y_cells.at(at).at(number(*row, y)), row->outcome});
-    }
-    panels.emplace_back(title, std::move(panel));
-  }
+  for (const auto& [title, of_panel] : rows) panels.emplace_back(title, make_panel(table, of_panel));
   return panels;
 }
 
 // The same axes in all panels, so that they compare by eye.
-std::pair<Axis, Axis> common_axes(const Panels& panels, bool log_y) {
-  Axis x{1e300, -1e300, 0, plot_width, false}, y{1e300, -1e300, plot_height, 0, log_y};
+std::pair<Axis, Axis> common_axes(const Panels& panels, const solver::MapView& view) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Axis x{none, -none, 0, plot_width, view.log_x}, y{none, -none, plot_height, 0, view.log_y};
   for (const auto& [title, panel] : panels)
     for (const auto& cell : panel.cells) {
       x.low = std::min(x.low, cell.x.first), x.high = std::max(x.high, cell.x.second);
@@ -185,31 +201,36 @@ std::string draw_axes(const MapTable& table, const Axis& x, const Axis& y) {
     svg += fmt::format("<path d=\"M0 {:.1f}h-5\" stroke=\"#222\"/>\n", y.pixel(value));
     svg += label(-8, y.pixel(value) + 4, fmt::format("{:.6g}", value), "text-anchor=\"end\"");
   }
-  const auto& x_column = table.columns[column_of(table, table.view->x)];
-  const auto& y_column = table.columns[column_of(table, table.view->y)];
-  svg += label(0.5 * plot_width, plot_height + 38, axis_label(x_column), "text-anchor=\"middle\"");
+  const solver::MapView& view = *table.view;
+  const std::string y_label =
+      view.y_in.empty() ? with_unit(table, view.y) : fmt::format("{} / {}", view.y, view.y_in);
+  svg += label(0.5 * plot_width, plot_height + 38, with_unit(table, view.x), "text-anchor=\"middle\"");
   svg += label(
-      0, 0, axis_label(y_column),
+      0, 0, y_label,
       fmt::format("text-anchor=\"middle\" transform=\"translate(-48 {}) rotate(-90)\"", plot_height / 2));
   return svg;
 }
 
+std::string line_style(std::size_t number) {
+  return fmt::format(
+      "clip-path=\"url(#plot)\" fill=\"none\" stroke=\"#0050c8\" stroke-width=\"2\" stroke-dasharray=\"{}\"",
+      line_dashes[number % line_dashes.size()]);
+}
+
 std::string draw_panel(const MapTable& table, const Panel& panel, const Axis& x, const Axis& y) {
-  std::string svg;
+  std::string svg = "<g stroke=\"#fff\" stroke-width=\"0.5\">\n";
   for (const auto& cell : panel.cells) {
     const double l = x.pixel(cell.x.first), r = x.pixel(cell.x.second);
     const double b = y.pixel(cell.y.first), t = y.pixel(cell.y.second);
-    svg += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" stroke=\"#fff\" "
-        "stroke-width=\"0.5\"/>\n",
-        l, t, r - l, b - t, colour_of_outcome(cell.outcome, table.outcomes.size()));
+    svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
+                       l, t, r - l, b - t, colour_of_outcome(cell.outcome, table.outcomes.size()));
   }
-  if (!panel.line.empty()) {
+  svg += "</g>\n";
+  for (std::size_t n = 0; n < panel.lines.size(); ++n) {
     std::string points;
-    for (const auto& [at, value] : panel.line)
+    for (const auto& [at, value] : panel.lines[n])
       points += fmt::format("{:.1f},{:.1f} ", x.pixel(at), y.pixel(value));
-    svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#0050c8\" stroke-width=\"2\"/>\n",
-                       points);
+    svg += fmt::format("<polyline points=\"{}\" {}/>\n", points, line_style(n));
   }
   return svg + draw_axes(table, x, y);
 }
@@ -218,15 +239,15 @@ std::string draw_legend(const MapTable& table) {
   std::string svg;
   double at = left;
   const auto entry = [&](const std::string& mark, const std::string& text) {
-    svg += fmt::format("<g transform=\"translate({:.1f} 12)\">{}</g>\n", at, mark) + label(at + 22, 23, text);
-    at += 22 + 7.2 * static_cast<double>(text.size()) + 18;
+    svg += fmt::format("<g transform=\"translate({:.1f} 12)\">{}</g>\n", at, mark) + label(at + 26, 23, text);
+    at += 26 + 7.2 * static_cast<double>(text.size()) + 18;
   };
   for (std::size_t outcome = 0; outcome < table.outcomes.size(); ++outcome)
     entry(fmt::format("<rect width=\"16\" height=\"13\" fill=\"{}\" stroke=\"#222\"/>",
                       colour_of_outcome(outcome, table.outcomes.size())),
           table.outcomes[outcome]);
-  if (!table.view->line.empty())
-    entry("<path d=\"M0 7h16\" stroke=\"#0050c8\" stroke-width=\"2\"/>", table.view->line_label);
+  for (std::size_t n = 0; n < table.view->lines.size(); ++n)
+    entry(fmt::format("<path d=\"M-4 7h24\" {}/>", line_style(n)), table.view->lines[n].label);
   return svg;
 }
 
@@ -234,7 +255,7 @@ std::string draw_legend(const MapTable& table) {
 
 std::string map_svg(const MapTable& table) {
   const Panels panels = make_panels(table);
-  const auto [x, y] = common_axes(panels, table.view->log_y);
+  const auto [x, y] = common_axes(panels, *table.view);
   const int across = std::min<int>(panels_in_a_row, static_cast<int>(panels.size()));
   const int down = (static_cast<int>(panels.size()) + across - 1) / across;
   constexpr int panel_width = left + plot_width + right, panel_height = top + plot_height + bottom;
@@ -243,8 +264,9 @@ std::string map_svg(const MapTable& table) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
+      "<clipPath id=\"plot\"><rect width=\"{4}\" height=\"{5}\"/></clipPath>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, escaped(table.name), escaped(table.caption));
+      width, height, escaped(table.name), escaped(table.caption), plot_width, plot_height);
   svg += draw_legend(table);
   for (int n = 0; n < static_cast<int>(panels.size()); ++n) {
     const auto& [title, panel] = panels[static_cast<std::size_t>(n)];

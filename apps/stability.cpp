@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 // Stays on one line of a terminal; elsewhere silent until the map is done.
-class MapLine {
+class MapProgressLine {
  public:
-  explicit MapLine(std::string_view name) : name_(name), terminal_(isatty(STDERR_FILENO) == 1) {}
+  explicit MapProgressLine(std::string_view name) : name_(name), terminal_(isatty(STDERR_FILENO) == 1) {}
   void show(double part) const {
     if (terminal_) fmt::print(stderr, "\r\x1b[K{}: {:.0f} %", name_, 100 * part);
   }
@@ -131,7 +131,7 @@ void write_maps(const std::vector<solver::StabilityMap>& maps, const fs::path& f
   make_folder(folder);
   std::vector<solver::MapTable> tables;
   for (const auto& map : maps) {
-    const MapLine line(map.name);
+    const MapProgressLine line(map.name);
     tables.push_back(map.make([&](double part) { line.show(part); }));
     const solver::MapTable& table = tables.back();
     line.end(table.rows.size());

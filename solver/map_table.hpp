@@ -25,14 +25,19 @@ struct MapRow {
   bool handled = true;         // false: nothing would have told that the result is not right
 };
 
+struct MapLine {
+  std::string column, label;
+};
+
 // How a table is drawn: a panel for each combination of values of some columns, in it a cell for each
-// row at (x, y) in the colour of its outcome, and the expected y over x as a line.
+// row at (x, y) in the colour of its outcome, and what theory expects of y over x as lines. All are names
+// of columns.
 struct MapView {
-  std::vector<std::string> panels;  // names of columns
+  std::vector<std::string> panels;
   std::string x, y;
-  std::string line;  // the column of the expected y; empty: none
-  std::string line_label;
-  bool log_y = false;
+  std::vector<MapLine> lines;
+  std::string y_in;  // y and the lines are drawn in multiples of this column; empty: as they are
+  bool log_x = false, log_y = false;
 };
 
 struct MapTable {

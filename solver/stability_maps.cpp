@@ -1,9 +1,18 @@
 #include "solver/stability_maps.hpp"
 
+#include "solver/step_maps.hpp"
+
 namespace myowave::solver {
 
 const std::vector<StabilityMap>& stability_maps() {
-  static const std::vector<StabilityMap> maps{};
+  static const std::vector<StabilityMap> maps{
+      {"dt_rigid", "dt against the node spacing of a rigid sheet", make_dt_rigid},
+      {"dt_stretch", "dt against a stretch in both directions", make_dt_stretch},
+      {"dt_uniaxial", "dt against a stretch in one direction", make_dt_uniaxial},
+      {"dt_shear", "dt against a simple shear", make_dt_shear},
+      {"dt_bilinear", "dt against a bilinear deformation of the whole sheet", make_dt_bilinear},
+      {"dt_crumpled", "dt against jumps of the deformation between elements", make_dt_crumpled},
+  };
   return maps;
 }
 
