@@ -5,6 +5,9 @@
 // is A on a checkerboard of amplitude A and 0 on a field of one coordinate alone. Edges are mirrored, as
 // the step sees them.
 //
+// A sharp front has noise too, where the grid resolves it badly. What no stable step does is to turn its
+// sign from step to step without letting it decay: growing_noise() asks for that.
+//
 //   view    shape                      unit   access
 //   V       (members, rows, columns)   -      read
 #pragma once
@@ -61,6 +64,46 @@ FieldRange grid_noise(const ExecutionSpace& space, const View& V) {
       },
       Kokkos::Max<double>(range.noise), Kokkos::Min<double>(range.min_V), Kokkos::Max<double>(range.max_V));
   return range;
+}
+
+// Where the next step, of length dt, turns the sign of the noise and does not make it smaller.
+struct GrowingNoise {
+  double noise = 0;  // largest of those; 0: nowhere
+  long node = -1;    // its linear index (member rows + row) columns + column
+};
+
+// Among nodes whose noise is at least `threshold`. Rate: dV/dt at (member, row, column). Waits for the
+// result.
+template <class ExecutionSpace, class View, class Rate>
+GrowingNoise growing_noise(const ExecutionSpace& space, const View& V, const Rate& rate, double dt,
+                           double threshold) {
+  const int rows = static_cast<int>(V.extent(1)), columns = static_cast<int>(V.extent(2));
+  using Largest = Kokkos::MaxLoc<double, long>;
+  typename Largest::value_type found;
+  Kokkos::parallel_reduce(
+      "myowave::observe::growing_noise",
+      Kokkos::RangePolicy<ExecutionSpace>(space, 0, static_cast<int>(V.extent(0)) * rows),
+      KOKKOS_LAMBDA(int row, typename Largest::value_type& largest) {
+        const int m = row / rows, i = row % rows;
+        const auto weight = [](int offset) { return offset == 0 ? -2.0 : 1.0; };
+        const auto component = [&](const auto& field, int j) {
+          double sum = 0;
+          for (int a = -1; a <= 1; ++a)
+            for (int b = -1; b <= 1; ++b)
+              sum += weight(a) * weight(b) *
+                     double(field(m, tissue::mirrored(i + a, rows), tissue::mirrored(j + b, columns)));
+          return 0.0625 * sum;
+        };
+        for (int j = 0; j < columns; ++j) {
+          const double now = component(V, j);
+          if (Kokkos::abs(now) < threshold || Kokkos::abs(now) <= largest.val) continue;
+          const double next = now + dt * component(rate, j);
+          if (now * next < 0 && Kokkos::abs(next) >= Kokkos::abs(now))
+            largest = {Kokkos::abs(now), long(row) * columns + j};
+        }
+      },
+      Largest(found));
+  return found.val > 0 ? GrowingNoise{found.val, found.loc} : GrowingNoise{};
 }
 
 }  // namespace myowave::observe

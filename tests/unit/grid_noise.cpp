@@ -102,5 +102,35 @@ TEST(GridNoise, EqualsThePlainLoopOnRoughFieldsOfSeveralMembers) {
   }
 }
 
+// dV/dt = -lambda V on a checkerboard: each step multiplies it by 1 - lambda dt.
+TEST(GrowingNoise, IsWhatAlternatesWithoutDecaying) {
+  constexpr int rows = 12, columns = 17;
+  constexpr double amplitude = 0.25, dt = 0.02;
+  const auto V = field(rows, columns, [](int i, int j) { return 0.4 + amplitude * checkerboard(i, j); });
+  const auto found = [&](double factor, double threshold) {
+    const auto rate = field(rows, columns,
+                            [&](int i, int j) { return (factor - 1) / dt * amplitude * checkerboard(i, j); });
+    return growing_noise(ExecutionSpace(), test::to_view<double>(rows, columns, {V}),
+                         test::to_view<double>(rows, columns, {rate}), dt, threshold);
+  };
+  EXPECT_DOUBLE_EQ(found(-1.05, 0.03).noise, amplitude);
+  EXPECT_GE(found(-1.05, 0.03).node, 0);
+  EXPECT_EQ(found(-0.95, 0.03).node, -1) << "decays";
+  EXPECT_EQ(found(1.05, 0.03).node, -1) << "grows, but keeps its sign: a front";
+  EXPECT_EQ(found(-1.05, 0.26).node, -1) << "below the threshold";
+}
+
+TEST(GrowingNoise, NamesItsNode) {
+  constexpr int rows = 12, columns = 17, node = columns + 5 * columns + 9;
+  const Values zero(rows * columns, 0.0);
+  std::vector<Values> V{zero, zero}, rate{zero, zero};
+  V[1][node] = 1;
+  rate[1][node] = -2.5;
+  const auto found = growing_noise(ExecutionSpace(), test::to_view<float>(rows, columns, V),
+                                   test::to_view<float>(rows, columns, rate), 1, 0.1);
+  EXPECT_NEAR(found.noise, 0.25, 1e-6);
+  EXPECT_EQ(found.node, rows * columns + node);
+}
+
 }  // namespace
 }  // namespace myowave::observe
