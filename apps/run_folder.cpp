@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
@@ -153,6 +154,11 @@ void RunFolder::area(double t, double total, double min, double max) {
 }
 
 void RunFolder::progress(const solver::Progress& progress) { impl_->progress.show(progress); }
+
+void RunFolder::warning(const std::string& text) {
+  impl_->progress.end();
+  fmt::print(stderr, "myowave: warning: {}\n", text);
+}
 
 bool RunFolder::wants_fields() const { return impl_->fields || impl_->picture; }
 

@@ -31,6 +31,7 @@ class RunFolder final : public solver::OutputSink {
   void tips(double t, std::span<const solver::Tip>) override;
   void area(double t, double total, double min, double max) override;
   void progress(const solver::Progress&) override;
+  void warning(const std::string&) override;
   bool wants_fields() const override;
 
  private:

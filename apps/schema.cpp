@@ -278,9 +278,15 @@ std::vector<Section> make_schema() {
              "\"all\""}},
        .repeated = true},
       {"accuracy",
-       "What the numbers are kept in.",
+       "What the numbers are kept in, and what happens where they go wrong.",
        {{"precision", "", choice({"float64", "float32"}, MYOWAVE_AT(scene.precision)),
-         "Of V, r and Ta. The mechanics is always float64."}}},
+         "Of V, r and Ta. The mechanics is always float64."},
+        {"on_unstable", "", choice({"stop", "substep"}, MYOWAVE_AT(scene.on_unstable)),
+         "Where a step is past the bound of the deformed metric, or what it gives is noise, out of range or "
+         "not "
+         "finite: `stop`: the run ends there, with exit status 3; `substep`: it goes back and divides dt, "
+         "and "
+         "says how often. A dt past the bound of the undeformed sheet is refused in both."}}},
       {"output",
        "What is written, besides summary.json, manifest.json, tips.csv, area.csv and probes.csv.",
        {{"every", "t.u.", output_every(),

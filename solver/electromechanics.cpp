@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "kernels/observe/area_change.hpp"
-#include "kernels/observe/finite_check.hpp"
 #include "kernels/observe/probes.hpp"
 #include "kernels/transfer/tension_to_gauss.hpp"
 #include "solver/denormals.hpp"
 #include "solver/error.hpp"
+#include "solver/state_fault.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -75,6 +75,14 @@ bool steps_in_tiles(const auto& form) {
   return std::visit([](const auto& f) { return std::decay_t<decltype(f.diffusion)>::mirrored_edges; }, form);
 }
 
+template <class ExecutionSpace, class View>
+void copy_fields(const ExecutionSpace& space, const tissue::ExcitationFields<View>& to,
+                 const tissue::ExcitationFields<View>& from) {
+  Kokkos::deep_copy(space, to.V, from.V);
+  Kokkos::deep_copy(space, to.r, from.r);
+  Kokkos::deep_copy(space, to.Ta, from.Ta);
+}
+
 auto values_of(const tissue::ActiveStimulus& stimulus) {
   const auto& r = stimulus.region;
   return std::tuple(r.row_begin, r.row_end, r.column_begin, r.column_end, r.center_row, r.center_column,
@@ -99,13 +107,6 @@ std::optional<Kokkos::DefaultHostExecutionSpace> second_host_instance() {
 
 }  // namespace
 
-double largest_stable_dt(const Scene& scene, double trace_inverse_C) {
-  const auto& e = scene.excitation;
-  const double diffusion = 4 * e.D * trace_inverse_C / (scene.grid.dx * scene.grid.dx);
-  const double reaction = e.k * std::abs(1 - e.a);
-  return 2 * e.C_m / (diffusion + reaction);
-}
-
 template <class ExecutionSpace, class Real>
 Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& space, const Scene& scene,
                                                          const InitialState& state, PhaseSeconds& phases,
@@ -124,6 +125,8 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
              View("myowave::solver::r", 1, grid_.rows, grid_.columns),
              {}},
       spare_{View("myowave::solver::V_next", 1, grid_.rows, grid_.columns), {}, {}},
+      clean_(clean_range(scene, state)),
+      stable_dt_(largest_stable_dt(scene, undeformed_trace)),
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
       tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)),
@@ -133,6 +136,12 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
   if (has_tension(scene)) {
     state_.Ta = View("myowave::solver::Ta", 1, grid_.rows, grid_.columns);
     upload(state_.Ta, state.Ta);
+  }
+  if (scene.on_unstable == OnUnstable::substep) {
+    kept_ = {View("myowave::solver::V_kept", 1, grid_.rows, grid_.columns),
+             View("myowave::solver::r_kept", 1, grid_.rows, grid_.columns),
+             {}};
+    if (has_tension(scene)) kept_.Ta = View("myowave::solver::Ta_kept", 1, grid_.rows, grid_.columns);
   }
   // Single steps update r and Ta in place.
   if (steps_in_tiles(form_)) {
@@ -229,12 +238,14 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
         }
       },
       form_);
-  const double bound = largest_stable_dt(scene_, std::max(2.0, bounds.max_trace_inverse_C));
-  if (scene_.time.dt > bound)
+  stable_dt_ = largest_stable_dt(scene_, std::max(undeformed_trace, bounds.max_trace_inverse_C));
+  if (scene_.on_unstable == OnUnstable::stop && scene_.time.dt > stable_dt_)
     throw NumericalFailure(fmt::format(
         "t = {:.6g} t.u.: dt = {} is past the stability bound {:.6g}: the sheet is so contracted that the "
-        "largest tr C^-1 is {:.6g} (smallest J {:.6g}). Set time.dt to {:.3g} or less",
-        t, scene_.time.dt, bound, bounds.max_trace_inverse_C, bounds.min_J, 0.9 * bound));
+        "largest tr C^-1 is {:.6g} (smallest J {:.6g}). Set time.dt to {:.3g} or less, or "
+        "accuracy.on_unstable to "
+        "\"substep\"",
+        t, scene_.time.dt, stable_dt_, bounds.max_trace_inverse_C, bounds.min_J, 0.9 * stable_dt_));
 }
 
 template <class ExecutionSpace, class Real>
@@ -256,40 +267,41 @@ void Electromechanics<ExecutionSpace, Real>::measure_area(double t) {
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::int64_t count) {
+void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::int64_t steps, int substeps) {
   const Timer timer(phases_->excitation);
-  const double dt = scene_.time.dt;
+  const double dt = scene_.time.dt / substeps;
+  const std::int64_t count = steps * substeps;
   const auto probes = probe_nodes_.extent(0);
   if (probe_record_.device.extent(0) < static_cast<std::size_t>(count))
     probe_record_ = Mirrored<Record>("myowave::solver::probe_record", count, probes);
   const auto stimuli_at = [&](std::int64_t n) -> const auto& {
-    return schedule_.active(static_cast<double>(first + n) * dt);
+    return schedule_.active(static_cast<double>(first * substeps + n) * dt);
   };
   for (std::int64_t n = 0; n < count;) {
     std::int64_t quiet = n;  // up to here no stimulus comes in between
     while (steps_in_tiles(form_) && quiet < count && stimuli_at(quiet).empty()) ++quiet;
     if (quiet > n) {
-      tiled_steps(static_cast<int>(n), static_cast<int>(quiet - n));
+      tiled_steps(static_cast<int>(n), static_cast<int>(quiet - n), dt);
       n = quiet;
     } else {
-      single_step(static_cast<int>(n), stimuli_at(n));
+      single_step(static_cast<int>(n), stimuli_at(n), dt);
       ++n;
     }
   }
   const auto history = first_rows(probe_record_.host, count);
   Kokkos::deep_copy(space_, history, first_rows(probe_record_.device, count));
   space_.fence("myowave::solver::advance");
-  probe_history_.resize(static_cast<std::size_t>(count) * probes);
-  for (std::int64_t n = 0; n < count; ++n)
-    for (std::size_t p = 0; p < probes; ++p) probe_history_[n * probes + p] = history(n, p);
+  probe_history_.resize(static_cast<std::size_t>(steps) * probes);
+  for (std::int64_t n = 0; n < steps; ++n)
+    for (std::size_t p = 0; p < probes; ++p) probe_history_[n * probes + p] = history(n * substeps, p);
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count) {
+void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, double dt) {
   const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns};
   const auto take = [&](const auto& diffusion) {
     with_model(scene_, model_, [&](const auto& model) {
-      tissue::tiled_steps(space_, diffusion, model, scene_.time.dt, count, state_, spare_, first, record);
+      tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record);
     });
   };
   std::visit(
@@ -302,37 +314,53 @@ void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count) {
 
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::single_step(int n,
-                                                         const std::vector<tissue::ActiveStimulus>& stimuli) {
+                                                         const std::vector<tissue::ActiveStimulus>& stimuli,
+                                                         double dt) {
   observe::record_probes(space_, state_.V, probe_nodes_, probe_record_.device, n);
   std::visit(
       [&](const auto& form) {
         with_model(scene_, model_, [&](const auto& model) {
-          tissue::monodomain_step(space_, form.diffusion, model, scene_.time.dt, state_.V, state_.r,
-                                  state_.Ta, spare_.V);
+          tissue::monodomain_step(space_, form.diffusion, model, dt, state_.V, state_.r, state_.Ta, spare_.V);
         });
       },
       form_);
   for (const auto& stimulus : stimuli)
-    tissue::add_stimulus(space_, spare_.V, stimulus, scene_.time.dt / scene_.excitation.C_m);
+    tissue::add_stimulus(space_, spare_.V, stimulus, dt / scene_.excitation.C_m);
   std::swap(state_.V, spare_.V);
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::check_finite(double t) const {
+void Electromechanics<ExecutionSpace, Real>::keep() {
+  copy_fields(space_, kept_, state_);
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::go_back() {
+  copy_fields(space_, state_, kept_);
+}
+
+template <class ExecutionSpace, class Real>
+std::optional<std::string> Electromechanics<ExecutionSpace, Real>::find_fault(double t, double dt) {
   const Timer timer(phases_->observe);
-  const View& Ta = has_tension(scene_) ? state_.Ta : state_.r;  // r, seen twice, where there is none
-  const long node = observe::first_non_finite(space_, state_.V, state_.r, Ta);
-  if (node < 0) return;
-  const int row = static_cast<int>(node / grid_.columns), column = static_cast<int>(node % grid_.columns);
-  const auto value = [&](const View& view) {
-    Real host;
-    Kokkos::deep_copy(host, Kokkos::subview(view, 0, row, column));
-    return static_cast<double>(host);
+  const auto growing_noise = [&] {
+    upload_stimuli(schedule_.active(t));
+    return std::visit(
+        [&](const auto& form) {
+          using Rate = tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, Model<Real>>;
+          const Rate rate{form.diffusion, model_, state_.V, state_.r,
+                          first_rows(stimuli_, uploaded_stimuli_.size())};
+          return observe::growing_noise(space_, state_.V, rate, dt, largest_clean_noise);
+        },
+        form_);
   };
-  throw NumericalFailure(fmt::format(
-      "t = {:.6g} t.u.: the excitation is not finite at node (row {}, column {}): V = {}, r = {}, Ta = {}. "
-      "Use a smaller time.dt, or look at the stimulus amplitude and at excitation.k and mu2",
-      t, row, column, value(state_.V), value(state_.r), has_tension(scene_) ? value(state_.Ta) : 0.0));
+  return find_state_fault(space_, WatchedState<View>{state_, t}, clean_.with_margin(scene_.excitation),
+                          growing_noise);
+}
+
+template <class ExecutionSpace, class Real>
+double Electromechanics<ExecutionSpace, Real>::largest_tension() const {
+  const auto& Ta = gauss_tension_.host;
+  return Ta.size() == 0 ? 0 : *std::max_element(Ta.data(), Ta.data() + Ta.size());
 }
 
 template <class ExecutionSpace, class Real>

@@ -13,6 +13,7 @@
 #include "solver/equilibrium.hpp"
 #include "solver/run.hpp"
 #include "solver/select_model.hpp"
+#include "solver/stability.hpp"
 #include "solver/stimulus_schedule.hpp"
 
 namespace myowave::solver {
@@ -23,10 +24,6 @@ struct AreaSample {
   double ratio = 1, min_ratio = 1, max_ratio = 1;
   double shortening = 0;  // 1 - sqrt(area / undeformed area)
 };
-
-// dt must not exceed this: min over FD cells of 2 / (4 D tr C^-1 / dx^2 + k (1 - a)), C_m = 1. Each
-// cell's energy is then bounded by its mass, so that no grid mode grows, for any F.
-double largest_stable_dt(const Scene&, double trace_inverse_C);
 
 // A View and its copy on the host, allocated together, so that a look at it allocates nothing. The
 // same memory where the host reaches the View.
@@ -63,16 +60,29 @@ class Electromechanics {
   // Equilibrium with the tension of now, then the metric. With mechanics.overlap: takes the solve
   // begun by the call before, which it waits for, and begins the one with the tension of now; only
   // the first is solved at once. True where nodes, metric and area() are new.
-  // Errors: NumericalFailure, also where the new metric makes dt unstable.
+  // Errors: NumericalFailure, also where the new metric makes dt unstable and the scene takes no substeps.
   bool solve_mechanics(double t);
   // Takes the solve that is begun, if any. Returns and errors as above.
   bool finish_mechanics(double t);
 
-  // `count` explicit steps from step `first`; t = step dt. Appends V at the probes before each step.
-  void advance(std::int64_t first, std::int64_t count);
+  // `count` explicit steps from step `first`, each in so many substeps; t = step dt. Appends V at the
+  // probes before each step.
+  void advance(std::int64_t first, std::int64_t count, int substeps = 1);
 
-  // Errors: NumericalFailure with time and node where V, r or Ta is not finite.
-  void check_finite(double t) const;
+  // The bound of the metric of now.
+  double stable_dt() const { return stable_dt_; }
+
+  // Keeps the state of now, for go_back(). Where the scene takes substeps; else there is no room for it.
+  void keep();
+  void go_back();
+
+  // Why the state is none of a clean run, with time, node and values: V, r or Ta is not finite, V or r is
+  // out of range, or V alternates at the grid's scale and goes on so in the next step. Empty where it may
+  // be one. dt: of the steps that led here; 0: none did.
+  std::optional<std::string> find_fault(double t, double dt);
+
+  // kPa, of the Gauss points at the last solve begun.
+  double largest_tension() const;
 
   struct Activity {
     std::vector<Tip> tips;  // row-major order of their squares
@@ -96,8 +106,8 @@ class Electromechanics {
  private:
   void begin_mechanics(double t);
   // Steps without a stimulus, or one with those given; n is the row of the probes' record.
-  void tiled_steps(int n, int count);
-  void single_step(int n, const std::vector<tissue::ActiveStimulus>&);
+  void tiled_steps(int n, int count, double dt);
+  void single_step(int n, const std::vector<tissue::ActiveStimulus>&, double dt);
   void measure_area(double t);
   void upload_stimuli(const std::vector<tissue::ActiveStimulus>&);
   void refresh_metric(double t);
@@ -112,6 +122,9 @@ class Electromechanics {
   typename ModelForms<ExecutionSpace, Real>::Any form_;
   tissue::ExcitationFields<View> state_;
   tissue::ExcitationFields<View> spare_;  // where the next steps go
+  tissue::ExcitationFields<View> kept_;
+  CleanRange clean_;
+  double stable_dt_;
 
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;

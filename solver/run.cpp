@@ -11,6 +11,7 @@
 #include "solver/electromechanics.hpp"
 #include "solver/error.hpp"
 #include "solver/rhythm.hpp"
+#include "solver/stability.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -106,14 +107,25 @@ class Observers {
   std::vector<AreaSample> areas_;  // one a solve
 };
 
+constexpr const char* what_to_do =
+    "Use a smaller time.dt, or look at the stimulus amplitude and at excitation.k and mu2";
+
+void warn(OutputSink& sink, RunSummary& summary, const std::string& text) {
+  summary.warnings.push_back(text);
+  sink.warning(text);
+}
+
 // One stage: the scene itself, or a precondition of it (unobserved).
 template <class Real>
 class Stage {
  public:
-  Stage(const Scene& scene, OutputSink& sink, RunSummary& summary, std::string name, bool observed)
+  // Warnings and substeps go to `whole`, the summary of the run that the stage is a part of.
+  Stage(const Scene& scene, OutputSink& sink, RunSummary& summary, RunSummary& whole, std::string name,
+        bool observed)
       : scene_(scene),
         sink_(sink),
         summary_(summary),
+        whole_(whole),
         name_(std::move(name)),
         observed_(observed),
         schedule_(scene),
@@ -137,19 +149,73 @@ class Stage {
 
   // The order of a step: solve the mechanics and refresh the metric, sample, then the Euler step.
   void advance(Sheet& sheet) {
+    require_no_fault(sheet.find_fault(0, 0));
     for (step_ = 0;;) {
       if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0 && sheet.solve_mechanics(t()))
         observers_.add_area(sheet.area());
-      if (schedule_.due(step_, schedule_.check)) sheet.check_finite(t());
+      look_at_tension(sheet);
       if (observed_) sample(sheet);
       report_progress();
       if (step_ == schedule_.last) break;
-      const std::int64_t next = schedule_.next(step_);
-      sheet.advance(step_, next - step_);
-      if (observed_) observers_.add_probe_history(step_, sheet.probe_history());
-      step_ = next;
+      const std::int64_t first = step_;
+      step_to(sheet, schedule_.next(step_));
+      if (observed_) observers_.add_probe_history(first, sheet.probe_history());
     }
     if (sheet.finish_mechanics(t())) observers_.add_area(sheet.area());
+  }
+
+  void step_to(Sheet& sheet, std::int64_t next) {
+    if (scene_.on_unstable == OnUnstable::substep) return substep_to(sheet, next);
+    sheet.advance(step_, next - step_);
+    step_ = next;
+    if (schedule_.due(step_, schedule_.check)) require_no_fault(sheet.find_fault(t(), scene_.time.dt));
+  }
+
+  // In parts where dt is past the bound of the metric. Where the state is faulty then, once more from the
+  // same start in twice as many; the next stretches try with fewer again.
+  void substep_to(Sheet& sheet, std::int64_t next) {
+    const double dt = scene_.time.dt;
+    sheet.keep();
+    int parts = std::max(needed_substeps(dt, sheet.stable_dt()), substeps_ / 2);
+    for (;; parts *= 2) {
+      if (parts > most_substeps)
+        throw NumericalFailure(
+            fmt::format("t = {:.6g} t.u.: no clean step was found in up to {} parts of dt = {}; the bound of "
+                        "the metric is "
+                        "{:.3g}{}. {}",
+                        t(), most_substeps, dt, sheet.stable_dt(),
+                        last_fault_.empty() ? "" : "; at last " + last_fault_, what_to_do));
+      sheet.advance(step_, next - step_, parts);
+      const auto fault = sheet.find_fault(static_cast<double>(next) * dt, dt / parts);
+      if (!fault) break;
+      last_fault_ = *fault;
+      sheet.go_back();
+    }
+    if (parts > 1) {
+      substepped_steps_ += next - step_;
+      largest_substeps_ = std::max(largest_substeps_, parts);
+    }
+    substeps_ = parts;
+    last_fault_.clear();
+    step_ = next;
+  }
+
+  void require_no_fault(const std::optional<std::string>& fault) const {
+    if (fault)
+      throw NumericalFailure(
+          fmt::format("{}. {}; accuracy.on_unstable = \"substep\" takes smaller steps where they are needed",
+                      *fault, what_to_do));
+  }
+
+  void look_at_tension(const Sheet& sheet) {
+    if (warned_of_tension_ || !sheet.deforms()) return;
+    const double largest = sheet.largest_tension();
+    if (largest <= elliptic_tension) return;
+    warned_of_tension_ = true;
+    warn(sink_, whole_,
+         fmt::format("t = {:.6g} t.u.: the active tension has reached {:.4g} kPa; above {} kPa the sheet can "
+                     "lose ellipticity",
+                     t(), largest, elliptic_tension));
   }
 
   void sample(Sheet& sheet) {
@@ -205,6 +271,12 @@ class Stage {
     summary_.wall_s = seconds_since(start_);
     summary_.cell_steps_per_s = cell_steps_per_s();
     observers_.write(summary_.observables, t(), sheet.stimulus_period());
+    if (substepped_steps_ == 0) return;
+    whole_.substepped_steps += substepped_steps_;
+    whole_.largest_substeps = std::max<std::int64_t>(whole_.largest_substeps, largest_substeps_);
+    warn(sink_, whole_,
+         fmt::format("{}: {} of {} steps were taken in parts, at most {}, because dt = {} was unstable",
+                     name_, substepped_steps_, step_, largest_substeps_, scene_.time.dt));
   }
 
   double cell_steps_per_s() const {
@@ -216,31 +288,26 @@ class Stage {
   const Scene& scene_;
   OutputSink& sink_;
   RunSummary& summary_;
+  RunSummary& whole_;
   std::string name_;
   bool observed_;
   Schedule schedule_;
   Observers observers_;
   std::int64_t step_ = 0;
+  int substeps_ = 1;  // of the last stretch
+  std::int64_t substepped_steps_ = 0;
+  int largest_substeps_ = 1;
+  std::string last_fault_;
+  bool warned_of_tension_ = false;
   int tips_ = 0;
   Clock::time_point start_, last_report_;
 };
 
 InitialState run_stage(const Scene& scene, const InitialState& state, OutputSink& sink, RunSummary& summary,
-                       const std::string& name, bool observed) {
+                       RunSummary& whole, const std::string& name, bool observed) {
   return scene.precision == Precision::float32
-             ? Stage<float>(scene, sink, summary, name, observed).run(state)
-             : Stage<double>(scene, sink, summary, name, observed).run(state);
-}
-
-void require_stable_dt(const Scene& scene, const char* where) {
-  constexpr double undeformed_trace = 2;
-  const double bound = largest_stable_dt(scene, undeformed_trace);
-  if (scene.time.dt > bound) {
-    throw InputError(fmt::format(
-        "time.dt = {} is past the stability bound {:.6g} of the undeformed sheet{}, "
-        "2 C_m / (8 D / dx^2 + k |1 - a|). Set time.dt to {:.3g} or less, or use a larger grid.dx",
-        scene.time.dt, bound, where, 0.99 * bound));
-  }
+             ? Stage<float>(scene, sink, summary, whole, name, observed).run(state)
+             : Stage<double>(scene, sink, summary, whole, name, observed).run(state);
 }
 
 Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
@@ -262,9 +329,9 @@ Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
 }  // namespace
 
 void require_stable_step(const Scene& scene) {
-  require_stable_dt(scene, "");
+  require_stable(scene, "");
   for (const auto& precondition : scene.initial.preconditions)
-    require_stable_dt(precondition_scene(scene, precondition), " during a precondition");
+    require_stable(precondition_scene(scene, precondition), " during a precondition");
 }
 
 InitialState make_initial_state(const Scene& scene) {
@@ -299,7 +366,8 @@ std::uint64_t memory_bytes(const Scene& scene) {
   const std::uint64_t real = scene.precision == Precision::float32 ? sizeof(float) : sizeof(double);
   // V twice, r and Ta twice where steps go tile by tile.
   const std::uint64_t copies = scene.mechanics && scene.metric == MetricForm::expanded ? 1 : 2;
-  const std::uint64_t state_fields = 2 + copies * (has_tension(scene) ? 2 : 1);
+  const std::uint64_t kept = scene.on_unstable == OnUnstable::substep ? (has_tension(scene) ? 3 : 2) : 0;
+  const std::uint64_t state_fields = 2 + copies * (has_tension(scene) ? 2 : 1) + kept;
   constexpr std::uint64_t host_fields = 3 + 3;          // initial and sampled V, r, Ta, float64
   constexpr std::uint64_t conservative_fields = 4 + 3;  // weights, scratch of their refresh
   constexpr std::uint64_t expanded_fields = 5;
@@ -367,18 +435,21 @@ InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSu
     throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
                                  scene.grid.rows, scene.grid.columns));
   require_stable_step(scene);
+  const auto& preconditions = scene.initial.preconditions;
+  require_clean_start(preconditions.empty() ? scene : precondition_scene(scene, preconditions[0]), state);
   flush_denormals();
   summary.model = model_in_words(scene);
+  for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
   std::size_t number = 0;
   for (const auto& precondition : scene.initial.preconditions) {
     RunSummary unused;
     const std::string name =
         fmt::format("precondition {} of {}", ++number, scene.initial.preconditions.size());
     const auto start = Clock::now();
-    state = run_stage(precondition_scene(scene, precondition), state, sink, unused, name, false);
+    state = run_stage(precondition_scene(scene, precondition), state, sink, unused, summary, name, false);
     summary.precondition_s += seconds_since(start);
   }
-  return run_stage(scene, state, sink, summary, "run", true);
+  return run_stage(scene, state, sink, summary, summary, "run", true);
 }
 
 }  // namespace myowave::solver

@@ -57,6 +57,8 @@ class OutputSink {
   // Relative to the loaded rest state: whole sheet, smallest and largest element.
   virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
   virtual void progress(const Progress&) {}
+  // At the time that the run comes to know; all stand in RunSummary::warnings too.
+  virtual void warning(const std::string&) {}
   // True: fields() is wanted at `every` (it costs a copy to the host).
   virtual bool wants_fields() const { return false; }
 };
@@ -92,6 +94,9 @@ struct RunSummary {
   double precondition_s = 0;
   double cell_steps_per_s = 0;  // nodes * steps / wall_s
   MechanicsStatistics mechanics;
+  // Steps that were taken in parts, preconditions too, and the largest number of parts.
+  std::int64_t substepped_steps = 0, largest_substeps = 1;
+  std::vector<std::string> warnings;
   Observables observables;
 };
 
@@ -100,7 +105,8 @@ struct RunSummary {
 std::vector<std::string> model_in_words(const Scene&);
 std::uint64_t memory_bytes(const Scene&);
 
-// Refuses a dt past the stability bound of the undeformed sheet, in the scene or a precondition.
+// Refuses what is certainly unstable in the scene or a precondition, whatever on_unstable says: dt past the
+// bound of the undeformed sheet is a wrong input.
 // Errors: InputError with the bound.
 void require_stable_step(const Scene&);
 
@@ -111,7 +117,7 @@ InitialState make_initial_state(const Scene&);
 // Runs the preconditions and then the scene. `summary` is kept current, so that it tells how far
 // the run came when NumericalFailure leaves this function.
 // Returns the final state.
-// Errors: InputError (require_stable_step, sizes that do not fit), NumericalFailure.
+// Errors: InputError (require_stable_step, require_clean_start, sizes that do not fit), NumericalFailure.
 InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary);
 
 }  // namespace myowave::solver

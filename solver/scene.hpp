@@ -49,6 +49,8 @@ enum class Load { follower, dead };
 enum class Edges { load, fixed };
 enum class MetricForm { none, conservative, expanded };
 enum class Precision { float64, float32 };
+// What a run does where its steps are unstable: end, or go back and take smaller ones.
+enum class OnUnstable { stop, substep };
 
 struct MechanicsSettings {
   int cells_per_element = 10;
@@ -120,6 +122,7 @@ struct Scene {
   InitialSettings initial;
   std::vector<Stimulus> stimuli;
   Precision precision = Precision::float64;
+  OnUnstable on_unstable = OnUnstable::stop;
   OutputSettings output;
 };
 

@@ -1,5 +1,6 @@
 // Scenes that must be refused, each with the message it must get; through the library for the table
 // and through the executable for what the user meets.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 
 #include "apps/scene_file.hpp"
 #include "solver/error.hpp"
+#include "solver/run.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -50,7 +52,7 @@ const BadScene bad_scenes[] = {
     {"key_of_another_section", "[grid]\nmu1 = 3",
      ":2:1: unknown key \"mu1\" in [grid]; it is a key of [excitation]"},
     {"unknown_key_far", "[accuracy]\n  speed = 3",
-     ":2:3: unknown key \"speed\" in [accuracy]; keys: precision"},
+     ":2:3: unknown key \"speed\" in [accuracy]; keys: precision, on_unstable"},
     {"unknown_key_of_a_precondition", "[[initial.precondition]]\nduration = 3\nmu3 = 1",
      ":3:1: unknown key \"mu3\" in [initial.precondition.0]; did you mean \"mu1\"?"},
     {"unknown_key_of_a_stimulus", "[[stimulus]]\namplitude = 1\n[[stimulus]]\namplitude = 1\nradius = 2",
@@ -225,6 +227,54 @@ TEST(bad_scenes, one_wrong_value_does_not_draw_others_along) {
                     "1\nregion = "
                     "{center = [300, 300], radius = 1}"),
             "bad.toml:2:5: grid.n must be an integer or [rows, columns], each 2 to 10000000, not 1");
+}
+
+// Steps that are certainly unstable: told from the numbers of a scene, before anything runs.
+TEST(bad_scenes, unstable_steps_are_refused_with_their_bound) {
+  const auto past = [](const char* dt, const char* bound, const char* proposed, const char* where = "") {
+    return fmt::format(
+        "time.dt = {} is past the stability bound {} of the undeformed sheet{}, 2 C_m / (8 D / dx^2 + k "
+        "max(a, "
+        "1 - a)). Set time.dt to {} or less, or use a larger grid.dx",
+        dt, bound, where, proposed);
+  };
+  const auto lifts = [](const char* amplitude, const char* rise, const char* limit, const char* proposed) {
+    return fmt::format(
+        "stimulus.0.amplitude = {} moves V by {} in one step; from {} on the explicit step blows up. Set it "
+        "to {} "
+        "or less in magnitude, or use a smaller time.dt",
+        amplitude, rise, limit, proposed);
+  };
+  const std::pair<const char*, std::string> cases[] = {
+      // finite, and wrong
+      {"time.dt = 0.077", past("0.077", "0.0679758", "0.0673")},
+      {"time.dt = 0.085", past("0.085", "0.0679758", "0.0673")},
+      {"time.dt = 0.077\naccuracy = {on_unstable = 'substep', precision = 'float32'}",
+       past("0.077", "0.0679758", "0.0673")},
+      {"excitation.k = 200", past("0.02", "0.00989011", "0.00979")},
+      // at rest the slope is k a
+      {"excitation = {k = 100, a = 0.95}", past("0.02", "0.0170616", "0.0169")},
+      {"time.dt = 0.03\nexcitation.D = 4", past("0.03", "0.0208141", "0.0206")},
+      {"excitation.C_m = 0.25", past("0.02", "0.016994", "0.0168")},
+      {"[[initial.precondition]]\nduration = 5\nk = 200",
+       past("0.02", "0.00989011", "0.00979", " during a precondition")},
+      {"excitation.eps = 60",
+       "time.dt = 0.02 is too long for excitation.eps = 60: r at rest would turn its sign from step to step. "
+       "Set "
+       "time.dt to 0.0165 or less"},
+      {"stimulus = {amplitude = 1e4}", lifts("10000", "200", "4.11", "204")},
+      {"stimulus = {amplitude = -250}", lifts("-250", "-5", "3.01", "149")},
+  };
+  for (const auto& [text, message] : cases) {
+    const solver::Scene scene = apps::parse_scene(text, "bad.toml", {});
+    std::string refused = "was accepted";
+    try {
+      solver::require_stable_step(scene);
+    } catch (const solver::InputError& error) {
+      refused = error.what();
+    }
+    EXPECT_EQ(refused, message) << text;
+  }
 }
 
 struct BadOverride {
@@ -406,6 +456,41 @@ TEST_F(Executable, a_failure_beside_the_steps_is_status_3_too) {
   const auto summary = nlohmann::json::parse(std::ifstream(out + "/summary.json"));
   EXPECT_THAT(summary["failure"].get<std::string>(), HasSubstr("t = 0.8 t.u."));
   EXPECT_EQ(summary["steps"], 80) << "the next solve takes it";
+}
+
+TEST_F(Executable, a_run_that_goes_wrong_is_status_3_and_substeps_heal_it) {
+  const std::string scene =
+      file("current.toml",
+           "grid.n = 31\ntime = {dt = 0.06, t_end = 9}\nexcitation.b = 0.5\ninitial.type = \"broken_front\"\n"
+           "stimulus = {amplitude = 3, duration = 9}\noutput.every = 1.2");
+  const std::string out = (folder_ / "out").string();
+  const test::Outcome stopped = test::run_myowave({"run", scene, "--out", out, "--quiet"});
+  EXPECT_EQ(stopped.status, 3) << stopped.errors;
+  EXPECT_THAT(stopped.errors, HasSubstr("accuracy.on_unstable = \"substep\""));
+  EXPECT_TRUE(std::filesystem::exists(out + "/probes.csv")) << "what was computed stays";
+
+  const test::Outcome healed = test::run_myowave(
+      {"run", scene, "--out", out, "--force", "--quiet", "--set", "accuracy.on_unstable=substep"});
+  EXPECT_EQ(healed.status, 0) << healed.errors;
+  const auto summary = nlohmann::json::parse(std::ifstream(out + "/summary.json"));
+  EXPECT_EQ(summary["substeps"]["largest"], 2);
+  EXPECT_GT(summary["substeps"]["steps"], 0);
+  ASSERT_EQ(summary["warnings"].size(), 1U);
+  EXPECT_THAT(healed.errors, HasSubstr("myowave: warning: " + summary["warnings"][0].get<std::string>()));
+}
+
+TEST_F(Executable, check_accepts_a_scene_that_its_own_trial_does_not_suit) {
+  const std::string scene = file("steep.toml", "grid.n = 11\nexcitation.mu2 = 0.001");
+  const test::Outcome outcome = test::run_myowave({"check", scene});
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("time     unknown: a few steps from a broken front failed: "));
+}
+
+TEST_F(Executable, check_prints_the_warnings_of_a_run) {
+  const std::string scene = file("strong.toml", "grid.n = 11\ntension.k_Ta = 80\n[mechanics]");
+  const test::Outcome outcome = test::run_myowave({"check", scene});
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("warning  tension.k_Ta = 80 kPa is above 60 kPa"));
 }
 
 TEST_F(Executable, bad_usage_is_status_2_and_says_what_to_do) {

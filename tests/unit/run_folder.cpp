@@ -172,6 +172,9 @@ TEST(Summary, HasTheKeysOfTheContract) {
   summary.wall_s = 2;
   summary.cell_steps_per_s = 5e8;
   summary.mechanics.solves = 3;
+  summary.substepped_steps = 40;
+  summary.largest_substeps = 2;
+  summary.warnings = {"steps were taken in parts"};
   summary.observables.period = {26.5, 0.25, 7};
   summary.observables.tips = {1.5, 0.5, 100};
   summary.observables.breakup_tu = 42;
@@ -195,6 +198,8 @@ TEST(Summary, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["observables"]["area"], (nlohmann::ordered_json{{"min", 0.8}, {"max", 1.1}}));
   EXPECT_EQ(json["observables"]["shortening"], (nlohmann::ordered_json{{"max", 0.25}, {"t", 33}}));
   EXPECT_TRUE(json["failure"].is_null());
+  EXPECT_EQ(json["warnings"], (nlohmann::ordered_json::array({"steps were taken in parts"})));
+  EXPECT_EQ(json["substeps"], (nlohmann::ordered_json{{"steps", 40}, {"largest", 2}}));
 }
 
 TEST(Summary, HasNullWhereThereIsNothing) {
