@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -137,6 +138,7 @@ class SceneReader {
   Scene read() {
     read_root();
     sheet_known_ = fine({"grid.n"});
+    check_representable();
     check_time();
     check_tension("tension", scene_.tension);
     check_mechanics();
@@ -437,6 +439,21 @@ class SceneReader {
         place = found->second;
     }
     problems_.add(place == nullptr ? toml::source_region{} : place->source(), message);
+  }
+
+  // A step adds dt times what it divides by dx^2: 0 or infinity there would be a run of nothing.
+  void check_representable() {
+    const bool single = scene_.precision == solver::Precision::float32;
+    const double smallest = single ? std::numeric_limits<float>::min() : std::numeric_limits<double>::min();
+    const double largest = single ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+    const auto check = [&](std::string_view path, double given, std::string_view what, double value) {
+      if (!fine({path, "accuracy.precision"}) || (value >= smallest && value <= largest)) return;
+      conflict({std::string(path), "accuracy.precision"},
+               fmt::format("{} = {}: {} = {:.2g} is outside of {} ({:.2g} to {:.2g})", path, given, what,
+                           value, single ? "float32" : "float64", smallest, largest));
+    };
+    check("time.dt", scene_.time.dt, "dt", scene_.time.dt);
+    check("grid.dx", scene_.grid.dx, "1/dx^2", 1 / (scene_.grid.dx * scene_.grid.dx));
   }
 
   void check_time() {

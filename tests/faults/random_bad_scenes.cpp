@@ -324,7 +324,7 @@ BadScene contradiction(Draw& draw, SceneText scene) {
   const auto region = [&](const std::string& text) {
     return stimulus(fmt::format("duration = {}\nregion = {{{}}}\n", 10 * dt, text));
   };
-  switch (draw.integer(0, 19)) {
+  switch (draw.integer(0, 20)) {
     case 0:
       return put({{"mechanics", "on", "true"},
                   {"mechanics", "cells_per_element", number(n + 2)},
@@ -369,6 +369,8 @@ BadScene contradiction(Draw& draw, SceneText scene) {
     case 18:
       scene.set("mechanics", "on", "false");
       return {scene.text() + "[[initial.precondition]]\nduration = 1\ncontraction = true\n", {}, ""};
+    case 19:
+      return put({{"grid", "dx", fmt::format("1e{}", draw.chance(0.5) ? 155 + n : -155 - n)}});
     default:
       return put({{"initial", "type", "'file'"}, {"initial", "file", fmt::format("'no/such_{}.h5'", n)}});
   }

@@ -292,8 +292,8 @@ SceneText random_extreme_scene(std::uint64_t seed) {
   SceneText scene = random_scene(seed);
   Draw draw(~seed);
   // The values of the others belong together, or make a run that never ends.
-  const std::vector<std::string> sections{"excitation", "excitation", "tension",
-                                          "mechanics",  "initial",    "stimulus"};
+  const std::vector<std::string> sections{"grid",      "excitation", "excitation", "tension",
+                                          "mechanics", "initial",    "stimulus"};
   for (int n = draw.integer(1, 3); n > 0; --n) {
     const std::string section = draw.one_of(sections);
     SceneText::Table* const table = scene.find(section);
