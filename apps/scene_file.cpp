@@ -17,6 +17,7 @@
 #include "apps/initial_state.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
+#include "solver/rest_state.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -500,6 +501,10 @@ class SceneReader {
     if (fine({"mechanics.c1", "mechanics.c2"}) && mechanics.c1 == 0 && mechanics.c2 == 0) {
       conflict({"mechanics.c1", "mechanics.c2"},
                "mechanics.c1 and mechanics.c2 are both 0: a sheet without stiffness has no equilibrium");
+    } else if (fine({"mechanics.c1", "mechanics.c2", "mechanics.p", "mechanics.load", "mechanics.edges"})) {
+      const auto reason = solver::why_no_rest_state(mechanics);
+      if (reason)
+        conflict({"mechanics.p", "mechanics.load", "mechanics.c2", "mechanics.c1", "mechanics"}, *reason);
     }
   }
 

@@ -11,6 +11,7 @@
 #include "solver/error.hpp"
 #include "solver/mesh.hpp"
 #include "solver/newton.hpp"
+#include "solver/rest_state.hpp"
 #include "solver/sparse_system.hpp"
 
 namespace myowave::solver {
@@ -220,6 +221,8 @@ Equilibrium<ExecutionSpace>& Equilibrium<ExecutionSpace>::operator=(Equilibrium&
 template <class ExecutionSpace>
 SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
                                                const GaussTension<MemorySpace>& Ta, double time) {
+  if (const auto reason = why_no_rest_state(impl_->settings))
+    throw NumericalFailure(no_rest_state_message(*reason, time));
   Effort effort;
   impl_->place_start(space, Ta);
   if (!impl_->converge(space, Ta, effort) && !impl_->ramp(space, Ta, effort)) impl_->fail(Ta, time, effort);

@@ -38,7 +38,8 @@ class Equilibrium {
   // Brings the nodes to equilibrium with the tension (kPa, at the Gauss points), starting from the
   // last solution, or, where there is none, from the uniform one for the mean tension. On failure
   // the nodes keep the last solution.
-  // Errors: NumericalFailure with time, Ta range, min J and what was tried.
+  // Errors: NumericalFailure with time, Ta range, min J and what was tried; without iterating where
+  // the sheet has no stable rest state.
   SolveReport solve(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double time);
 
   // Current positions, length units; written by solve().

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "solver/equibiaxial.hpp"
-
 namespace myowave::solver {
 namespace {
 
@@ -22,12 +20,6 @@ std::string what_was_tried(const Effort& effort) {
 
 std::string what_to_do(const MechanicsSettings& settings, const FailedState& state) {
   constexpr double elliptic_tension = 60;  // kPa; an equibiaxial state stays elliptic up to it
-  if (settings.edges == Edges::load && !equibiaxial_stretch(settings, state.min_Ta)) {
-    return fmt::format(
-        "Even a uniform sheet has no equilibrium with p = {:g} kN/m, c1 = {:g} and c2 = {:g} kPa: "
-        "lower mechanics.p or raise mechanics.c1 and c2 (a follower load with c2 = 0 needs p < 2 c1).",
-        settings.p, settings.c1, settings.c2);
-  }
   const double stiffness = 6 * (settings.c1 + settings.c2);  // equibiaxial, of the undeformed sheet
   if (settings.edges == Edges::load && std::abs(settings.p) > stiffness) {
     return fmt::format(
@@ -64,6 +56,12 @@ std::string failure_message(const MechanicsSettings& settings, const FailedState
       state.time, state.min_Ta, state.max_Ta, edge, settings.c1, settings.c2, what_was_tried(effort),
       effort.last.residual, settings.tolerance, state.area, state.min_J, state.row, state.column,
       what_to_do(settings, state));
+}
+
+std::string no_rest_state_message(const std::string& reason, double time) {
+  return fmt::format(
+      "mechanics at t = {:g} t.u.: there is no equilibrium to look for, and nothing was iterated.\n{}", time,
+      reason);
 }
 
 std::string broken_tension_message(double time, int row, int column) {

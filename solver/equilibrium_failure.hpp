@@ -41,6 +41,9 @@ struct FailedState {
 // Time, tension, load, what was tried, what was reached, and what to do.
 std::string failure_message(const MechanicsSettings&, const FailedState&, const Effort&);
 
+// The load and the material leave no rest state (solver/rest_state.hpp): no solve was tried.
+std::string no_rest_state_message(const std::string& reason, double time);
+
 // The tension of an element is not a number: no solve was tried.
 std::string broken_tension_message(double time, int row, int column);
 

@@ -118,6 +118,19 @@ const BadScene bad_scenes[] = {
      "11"},
     {"no_stiffness", "[mechanics]\nc1 = 0\nc2 = 0",
      ":2:6: mechanics.c1 and mechanics.c2 are both 0: a sheet without stiffness has no equilibrium"},
+    {"no_rest_state", "[mechanics]\nc1 = 3\nc2 = 0",
+     ":3:6: mechanics.p = 10: a sheet with c1 = 3 and c2 = 0 has no equilibrium under this load; a follower "
+     "load with c2 = 0 needs p < 2 c1 = 6"},
+    {"no_rest_state_at_the_bound", "[mechanics]\nc2 = 0\np = 4",
+     ":3:5: mechanics.p = 4: a sheet with c1 = 2 and c2 = 0 has no equilibrium under this load; a follower "
+     "load with c2 = 0 needs p < 2 c1 = 4"},
+    {"dead_load_that_pushes", "[mechanics]\nload = 'dead'\np = -0.5",
+     ":3:5: mechanics.p = -0.5: the sheet is not stable under this dead load, it would turn around; with c1 "
+     "= 2 "
+     "and c2 = 6 a dead load must be 0 to 22.02, a follower load may be any"},
+    {"dead_load_too_large", "[mechanics]\nload = 'dead'\np = 22.1",
+     ":3:5: mechanics.p = 22.1: the sheet is not stable under this dead load, it would stretch more one way "
+     "than the other; with c1 = 2 and c2 = 6 a dead load must be 0 to 22.02, a follower load may be any"},
     {"key_of_another_initial_type", "[initial]\ntype = 'rest'\nwidth = 3",
      ":3:9: initial.width belongs to type = \"broken_front\" and has no effect with type = \"rest\""},
     {"offset_of_a_settled_spiral", "[initial]\ntype = 'settled_spiral'\noffset = [3, 3]",
@@ -439,8 +452,9 @@ TEST_F(Executable, results_are_replaced_only_by_force) {
 }
 
 TEST_F(Executable, a_sheet_without_equilibrium_is_status_3_and_leaves_a_summary_that_says_so) {
-  // c2 = 0: no equilibrium under p = 10 kN/m.
-  const std::string scene = file("soft.toml", "grid.n = 21\ntime.t_end = 1\nmechanics.c2 = 0");
+  const std::string scene =
+      file("strong.toml",
+           "grid.n = 21\ntime.t_end = 4\ntension.k_Ta = 1e5\ninitial.type = \"broken_front\"\n[mechanics]");
   const std::string out = (folder_ / "out").string();
   const test::Outcome outcome = test::run_myowave({"run", scene, "--out", out, "--quiet"});
   EXPECT_EQ(outcome.status, 3) << outcome.errors;
