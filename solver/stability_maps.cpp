@@ -1,5 +1,7 @@
 #include "solver/stability_maps.hpp"
 
+#include "solver/mechanics_maps.hpp"
+#include "solver/parameter_maps.hpp"
 #include "solver/step_maps.hpp"
 
 namespace myowave::solver {
@@ -12,6 +14,11 @@ const std::vector<StabilityMap>& stability_maps() {
       {"dt_shear", "dt against a simple shear", make_dt_shear},
       {"dt_bilinear", "dt against a bilinear deformation of the whole sheet", make_dt_bilinear},
       {"dt_crumpled", "dt against jumps of the deformation between elements", make_dt_crumpled},
+      {"mechanics_load", "Equilibria against tension and edge load", make_mechanics_load},
+      {"mechanics_material", "Equilibria against the stiffness of the sheet", make_mechanics_material},
+      {"mechanics_mesh", "Equilibria under fronts sharper than an element", make_mechanics_mesh},
+      {"parameters", "Runs with parameters at their ends", make_parameters},
+      {"long_runs", "What a million steps leave", make_long_runs},
   };
   return maps;
 }
