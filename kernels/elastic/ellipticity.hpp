@@ -7,6 +7,8 @@
 
 #include <Kokkos_Core.hpp>
 
+#include "kernels/elastic/element.hpp"
+#include "kernels/elastic/element_grid.hpp"
 #include "kernels/elastic/stress.hpp"
 
 namespace myowave::elastic {
@@ -44,6 +46,38 @@ KOKKOS_INLINE_FUNCTION double least_acoustic_modulus(const SpatialTangent& A) {
     }
   }
   return Kokkos::min(least, acoustic_modulus(A, 0.5 * (low + high)));
+}
+
+// Whether Q is positive definite in every direction, exactly. Along the principal stretches a and b, at the
+// angle x to the first, det Q = P cos^4 x + R cos^2 x sin^2 x + S sin^4 x.
+KOKKOS_INLINE_FUNCTION bool is_elliptic(const EnergyDerivatives& w, const Mat2& F) {
+  const double t = F.m11 * F.m11 + F.m12 * F.m12 + F.m21 * F.m21 + F.m22 * F.m22, J = determinant(F);
+  const double sum = Kokkos::sqrt(t + 2 * J), difference = Kokkos::sqrt(Kokkos::max(t - 2 * J, 0.0));
+  const SpatialTangent A = spatial_tangent(w, {0.5 * (sum + difference), 0, 0, 0.5 * (sum - difference)});
+  const double mixed = A.a1122 + A.a1221;
+  const double P = A.a1111 * A.a2121, S = A.a2222 * A.a1212,
+               R = A.a1111 * A.a2222 + A.a1212 * A.a2121 - mixed * mixed;
+  return A.a1111 > 0 && A.a2222 > 0 && A.a1212 > 0 && A.a2121 > 0 && R + 2 * Kokkos::sqrt(P * S) > 0;
+}
+
+// Gauss points at which the membrane is not elliptic. Nodes (nodes, 2), length units; Ta (elements, 4), kPa.
+// Waits for the count.
+template <class Space>
+int count_not_elliptic(const Space& space, const Membrane& membrane, const ElementGrid& grid,
+                       const Nodes<typename Space::memory_space>& nodes,
+                       const GaussTension<typename Space::memory_space>& Ta) {
+  int count = 0;
+  Kokkos::parallel_reduce(
+      "myowave::elastic::count_not_elliptic", Kokkos::RangePolicy<Space>(space, 0, grid.elements()),
+      KOKKOS_LAMBDA(int e, int& found) {
+        const auto element = element_nodes(grid, nodes, e);
+        for (int q = 0; q < gauss_points; ++q) {
+          const Mat2 F = gauss_deformation_gradient(element, q, grid.h);
+          found += is_elliptic(membrane_energy(membrane, Ta(e, q), F), F) ? 0 : 1;
+        }
+      },
+      count);
+  return count;
 }
 
 }  // namespace myowave::elastic

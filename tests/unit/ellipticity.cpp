@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/elastic/assemble.hpp"
 #include "kernels/elastic/element.hpp"
 #include "solver/ellipticity.hpp"
 #include "tests/support/sheets.hpp"
@@ -74,6 +75,38 @@ TEST(Ellipticity, NoDirectionOfAThousandIsLower) {
     EXPECT_LE(elastic::least_acoustic_modulus(A), least + 1e-6);
     EXPECT_NEAR(elastic::least_acoustic_modulus(A), least, 0.01 * std::abs(least) + 0.01);
   }
+}
+
+TEST(Ellipticity, TheExactCriterionIsTheSignOfTheLeastModulus) {
+  test::Uniform uniform(2);
+  int lost = 0;
+  for (int state = 0; state < 5000; ++state) {
+    const Mat2 F{uniform(0.4, 1.8), uniform(-0.6, 0.6), uniform(-0.6, 0.6), uniform(0.4, 1.8)};
+    if (determinant(F) < 0.05) continue;
+    const double Ta = uniform(0, 120), least = modulus(Ta, F);
+    const Membrane loaded{.passive = {}, .load = {.follower = uniform(-30, 45), .dead = 0}};
+    const bool elliptic = elastic::is_elliptic(elastic::membrane_energy(loaded, Ta, F), F);
+    if (std::abs(least) > 1e-4) {
+      EXPECT_EQ(elliptic, least > 0) << "least modulus " << least << " kPa";
+    }
+    lost += elliptic ? 0 : 1;
+  }
+  EXPECT_GT(lost, 200);
+  EXPECT_LT(lost, 4800);
+}
+
+TEST(EllipticityMargin, AUniformSheetAtTheWeakestStretchLosesItAt60Point2) {
+  const elastic::ElementGrid grid{.rows = 2, .columns = 3, .h = 6};
+  const Nodes<Kokkos::HostSpace> nodes("nodes", grid.nodes());
+  const Kokkos::DefaultHostExecutionSpace host;
+  elastic::place_uniform(host, grid, std::sqrt(1.2648), nodes);
+  const GaussTension<Kokkos::HostSpace> Ta("Ta", grid.elements());
+  Kokkos::deep_copy(Ta, 60.1);
+  EXPECT_GT(solver::ellipticity_margin(grid, {}, nodes, Ta), 0);
+  EXPECT_EQ(elastic::count_not_elliptic(host, {}, grid, nodes, Ta), 0);
+  Kokkos::deep_copy(Ta, 60.4);
+  EXPECT_LT(solver::ellipticity_margin(grid, {}, nodes, Ta), 0);
+  EXPECT_EQ(elastic::count_not_elliptic(host, {}, grid, nodes, Ta), 4 * grid.elements());
 }
 
 TEST(EllipticityMargin, IsOneUndeformedAndTakesTheWeakestGaussPoint) {
