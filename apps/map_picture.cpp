@@ -24,7 +24,8 @@ constexpr int panels_in_a_row = 2;
 constexpr std::array<std::string_view, 3> line_dashes{"none", "7 4", "2 3"};
 
 // From light to dark, so that a worse outcome is darker in grey and to colour-blind eyes too.
-constexpr std::array<std::string_view, 5> colours{"#fbf1b8", "#fdc776", "#ee7b30", "#b3263a", "#3f0d3a"};
+constexpr std::array<std::string_view, 7> colours{"#fbf1b8", "#fdd98f", "#fdb95e", "#ee7b30",
+                                                  "#cc3f38", "#8a1f45", "#3f0d3a"};
 
 std::string_view colour_of_outcome(std::size_t outcome, std::size_t outcomes) {
   return outcomes < 2 ? colours.front() : colours[outcome * (colours.size() - 1) / (outcomes - 1)];

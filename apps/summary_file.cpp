@@ -23,7 +23,8 @@ json pair(const std::optional<std::pair<double, double>>& values, const char* fi
 json mechanics(const solver::MechanicsStatistics& m) {
   return {{"solves", m.solves},         {"newton_iterations", m.newton_iterations},
           {"newton_max", m.newton_max}, {"factorizations", m.factorizations},
-          {"shifts", m.shifts},         {"min_J", number(m.min_J)}};
+          {"shifts", m.shifts},         {"not_elliptic", m.not_elliptic},
+          {"min_J", number(m.min_J)}};
 }
 
 json observables(const solver::Observables& o) {

@@ -216,6 +216,7 @@ bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
     statistics_->newton_max = std::max(statistics_->newton_max, report.iterations);
     statistics_->factorizations += report.factorizations;
     statistics_->shifts += report.shifts;
+    statistics_->not_elliptic += report.not_elliptic > 0 ? 1 : 0;
     statistics_->min_J = std::min(statistics_->min_J, report.min_J);
     Kokkos::deep_copy(Host(), nodes_.host, equilibrium_->nodes());
     Host().fence("myowave::solver::finish_mechanics");

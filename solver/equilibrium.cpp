@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernels/elastic/assemble.hpp"
+#include "kernels/elastic/ellipticity.hpp"
 #include "solver/direct_solver.hpp"
 #include "solver/equibiaxial.hpp"
 #include "solver/equilibrium_failure.hpp"
@@ -231,6 +232,7 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
   Kokkos::deep_copy(space, impl_->solved_Ta, Ta);
   space.fence("myowave::elastic::solve");
   impl_->in_equilibrium = true;
+  const int not_elliptic = elastic::count_not_elliptic(space, impl_->membrane, impl_->grid, impl_->nodes, Ta);
   return {.iterations = effort.iterations,
           .factorizations = effort.factorizations,
           .shifts = effort.shifts,
@@ -238,6 +240,7 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
           .residual = effort.last.residual,
           .energy = effort.last.energy,
           .min_J = effort.last.min_J,
+          .not_elliptic = not_elliptic,
           .time = effort.time};
 }
 

@@ -21,6 +21,7 @@ struct SolveReport {
   double residual = 0;          // max|R_free| / (10 kPa h) at the end
   double energy = 0;            // Pi at the end, kPa x area
   double min_J = 0;             // smallest det F at any corner of any element
+  int not_elliptic = 0;         // Gauss points where the membrane has lost ellipticity
   PhaseTimes time;
 };
 

@@ -65,8 +65,8 @@ bool sound(const SolveReport& report, double tolerance) {
   return report.residual < tolerance && report.min_J > 0 && std::isfinite(report.energy);
 }
 
-MechanicsOutcome outcome_of(const SolveReport& report, double margin) {
-  if (margin <= 0) return MechanicsOutcome::not_elliptic;
+MechanicsOutcome outcome_of(const SolveReport& report) {
+  if (report.not_elliptic > 0) return MechanicsOutcome::not_elliptic;
   if (report.ramp_steps > 0) return MechanicsOutcome::ramped;
   return report.shifts > 0 ? MechanicsOutcome::shifted : MechanicsOutcome::converged;
 }
@@ -84,8 +84,9 @@ MechanicsResult solve_case(const MechanicsCase& c) {
     result.report = sheet.solve(host, Ta, 0);
     result.margin = ellipticity_margin(grid, c.settings, sheet.nodes(), Ta);
     const SolveReport again = sheet.solve(host, Ta, 0);
-    if (sound(result.report, c.settings.tolerance) && again.iterations == 0 && std::isfinite(result.margin))
-      result.outcome = outcome_of(result.report, result.margin);
+    if (sound(result.report, c.settings.tolerance) && again.iterations == 0 &&
+        (result.report.not_elliptic > 0) == (result.margin <= 0))
+      result.outcome = outcome_of(result.report);
   } catch (const NumericalFailure& failure) {
     result.failure = failure.what();
     result.outcome =
@@ -209,7 +210,7 @@ MapTable make_mechanics_load(const MapProgress& progress) {
           "Cold solves of 25 x 25 elements, c1 = 2 and c2 = 6 kPa, under a uniform tension and under a "
           "spiral arm of it, against the largest tension and the edge load."),
       cases, progress);
-  table.view = {.panels = {"tension", "load"}, .x = "p", .y = "k_Ta", .line = "", .line_label = ""};
+  table.view = {.panels = {"tension", "load"}, .x = "p", .y = "k_Ta", .lines = {}, .y_in = ""};
   const auto lines = load_table(cases, table.rows);
   table.findings.insert(table.findings.end(), lines.begin(), lines.end());
   return table;

@@ -154,6 +154,7 @@ class Stage {
       if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0 && sheet.solve_mechanics(t()))
         observers_.add_area(sheet.area());
       look_at_tension(sheet);
+      look_at_ellipticity();
       if (observed_) sample(sheet);
       report_progress();
       if (step_ == schedule_.last) break;
@@ -216,6 +217,16 @@ class Stage {
          fmt::format("t = {:.6g} t.u.: the active tension has reached {:.4g} kPa; above {} kPa the sheet can "
                      "lose ellipticity",
                      t(), largest, elliptic_tension));
+  }
+
+  void look_at_ellipticity() {
+    if (warned_of_ellipticity_ || summary_.mechanics.not_elliptic == 0) return;
+    warned_of_ellipticity_ = true;
+    warn(sink_, whole_,
+         fmt::format(
+             "t = {:.6g} t.u.: a part of the sheet has lost ellipticity: how it folds there depends on "
+             "the mesh",
+             t()));
   }
 
   void sample(Sheet& sheet) {
@@ -298,7 +309,7 @@ class Stage {
   std::int64_t substepped_steps_ = 0;
   int largest_substeps_ = 1;
   std::string last_fault_;
-  bool warned_of_tension_ = false;
+  bool warned_of_tension_ = false, warned_of_ellipticity_ = false;
   int tips_ = 0;
   Clock::time_point start_, last_report_;
 };

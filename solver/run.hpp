@@ -69,7 +69,8 @@ struct PhaseSeconds {
 
 struct MechanicsStatistics {
   std::int64_t solves = 0, newton_iterations = 0, newton_max = 0, factorizations = 0, shifts = 0;
-  double min_J = 1;  // smallest at any corner of any element over all accepted solutions
+  std::int64_t not_elliptic = 0;  // solves with a Gauss point where ellipticity is lost
+  double min_J = 1;               // smallest at any corner of any element over all accepted solutions
 };
 
 struct MeanSd {

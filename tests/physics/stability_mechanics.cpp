@@ -4,9 +4,11 @@
 
 #include <Kokkos_Core.hpp>
 #include <cmath>
+#include <utility>
 
 #include "solver/equilibrium.hpp"
 #include "solver/mechanics_maps.hpp"
+#include "solver/run.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {
@@ -25,6 +27,7 @@ TEST(MechanicsMap, ThePaperConverges) {
   EXPECT_EQ(result.outcome, MechanicsOutcome::converged);
   EXPECT_GT(result.report.min_J, 0.7);
   EXPECT_GT(result.margin, 0.6);
+  EXPECT_EQ(result.report.not_elliptic, 0);
 }
 
 TEST(MechanicsMap, StrongTensionNeedsShifts) {
@@ -47,6 +50,7 @@ TEST(MechanicsMap, ASpiralOf100KilopascalLosesEllipticity) {
   const auto result = solve_case(spiral(100, 10));
   EXPECT_EQ(result.outcome, MechanicsOutcome::not_elliptic);
   EXPECT_LT(result.margin, 0);
+  EXPECT_GT(result.report.not_elliptic, 0) << "what a run tells";
   EXPECT_GT(result.report.min_J, 0) << "which alone would not tell";
 }
 
@@ -89,6 +93,27 @@ TEST(MechanicsMap, NoPatternOnASmallMeshPassesUnnoticed) {
           EXPECT_LT(result.outcome, MechanicsOutcome::unnoticed)
               << "pattern " << pattern << ", " << k_Ta << " kPa, side " << side << ": " << result.failure;
         }
+}
+
+// At 20 kPa, far below what the paper's sheet bears: a softer one does not.
+TEST(MechanicsMap, ARunTellsOfLostEllipticityAtAnyTension) {
+  Scene scene;
+  scene.grid = {31, 31, 0.6};
+  scene.time.t_end = 16;
+  scene.initial.type = InitialSettings::Type::broken_front;
+  scene.tension.k_Ta = 20;
+  scene.mechanics.emplace();
+  const auto warnings = [&] {
+    OutputSink nowhere;
+    RunSummary summary;
+    run(scene, make_initial_state(scene), nowhere, summary);
+    return std::pair(summary.warnings, summary.mechanics.not_elliptic);
+  };
+  EXPECT_THAT(warnings(), testing::Pair(testing::IsEmpty(), 0));
+  scene.mechanics->c1 = 0.1;
+  scene.mechanics->c2 = 1;
+  scene.mechanics->p = 0;
+  EXPECT_THAT(warnings(), testing::Pair(testing::ElementsAre(HasSubstr("lost ellipticity")), testing::Gt(0)));
 }
 
 // A tension and its mirror images have equilibria of the same energy.

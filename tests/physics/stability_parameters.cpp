@@ -70,7 +70,7 @@ TEST(ParameterMap, NegativeRecoveryAboveTheThresholdDiesOutAndBelowRunsAway) {
 }
 
 TEST(ParameterMap, StimuliOfAnySizeAreRightOrToldOf) {
-  for (const double amplitude : {-1e6, 10.0, 1e3, 1e6, 1e300}) {
+  for (const double amplitude : {-1e6, -10.0, 10.0, 1e3, 1e6, 1e300}) {
     ParameterCase one = front();
     one.scene.initial.type = InitialSettings::Type::rest;
     one.scene.stimuli.push_back({.start = 1, .amplitude = amplitude});

@@ -188,7 +188,8 @@ TEST(Summary, HasTheKeysOfTheContract) {
   }
   EXPECT_EQ(json["wall_s"], 2);
   EXPECT_EQ(json["throughput"]["cell_steps_per_s"], 5e8);
-  for (const char* key : {"solves", "newton_iterations", "newton_max", "factorizations", "shifts", "min_J"}) {
+  for (const char* key :
+       {"solves", "newton_iterations", "newton_max", "factorizations", "shifts", "not_elliptic", "min_J"}) {
     EXPECT_TRUE(json["mechanics"][key].is_number()) << key;
   }
   EXPECT_EQ(json["observables"]["period"], (nlohmann::ordered_json{{"mean", 26.5}, {"sd", 0.25}, {"n", 7}}));
