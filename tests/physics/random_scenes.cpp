@@ -17,9 +17,10 @@ namespace {
 using solver::InitialState;
 using solver::Scene;
 
-// What holds of the scene's own frames; empty where the sheet deforms unevenly on the way, or where the
-// intervals grow without end.
+// What holds of the scene's own frames; empty where the sheet deforms unevenly on the way, where steps may be
+// divided, or where the intervals grow without end.
 std::optional<StateBox> bounds_of(const Scene& scene, const InitialState& initial, const Watch& watch) {
+  if (scene.on_unstable == solver::OnUnstable::substep) return std::nullopt;
   StateBox box(initial);
   for (const auto& one : scene.initial.preconditions) {
     if (one.contraction) return std::nullopt;

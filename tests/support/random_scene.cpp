@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "apps/schema.hpp"
+#include "solver/rest_state.hpp"
 
 namespace myowave::test {
 namespace {
@@ -31,6 +32,7 @@ class RandomScene {
     for (int n = draw_.integer(-1, 3); n > 0; --n) stimulus();
     output();
     if (draw_.chance(0.5)) scene_.set("accuracy", "precision", draw_.one_of(precisions));
+    if (draw_.chance(0.3)) scene_.set("accuracy", "on_unstable", draw_.chance(0.5) ? "'stop'" : "'substep'");
     return std::move(scene_);
   }
 
@@ -82,10 +84,18 @@ class RandomScene {
 
   void mechanics(int cells) {
     scene_.set("mechanics", "cells_per_element", fmt::format("{}", cells));
-    maybe("mechanics", "c1", 2, 0, 5, 0.3);
-    maybe("mechanics", "c2", 6, 0.5, 12, 0.3);
-    maybe("mechanics", "p", 10, -15, 25);
-    if (draw_.chance(0.4)) scene_.set("mechanics", "load", draw_.chance(0.5) ? "'dead'" : "'follower'");
+    solver::MechanicsSettings settings;
+    settings.c1 = maybe("mechanics", "c1", settings.c1, 0, 5, 0.3);
+    settings.c2 = maybe("mechanics", "c2", settings.c2, 0.5, 12, 0.3);
+    if (draw_.chance(0.2)) {
+      // Others leave the sheet without a stable rest state.
+      const double largest = std::min(25.0, 0.9 * solver::largest_dead_load(settings));
+      scene_.set("mechanics", "load", "'dead'");
+      scene_.set("mechanics", "p", text_of(rounded(draw_.number(0, largest))));
+    } else {
+      if (draw_.chance(0.2)) scene_.set("mechanics", "load", "'follower'");
+      maybe("mechanics", "p", 10, -15, 25);
+    }
     if (draw_.chance(0.4)) scene_.set("mechanics", "edges", draw_.chance(0.7) ? "'fixed'" : "'load'");
     if (draw_.chance(0.7)) scene_.set("mechanics", "interval", fmt::format("{}", draw_.integer(1, 100)));
     if (draw_.chance(0.3))
