@@ -278,7 +278,7 @@ std::vector<Section> make_schema() {
              "\"all\""}},
        .repeated = true},
       {"accuracy",
-       "What the numbers are kept in, and what happens where they go wrong.",
+       "What the numbers are kept in, what happens where they go wrong, and what counts as zero.",
        {{"precision", "", choice({"float64", "float32"}, MYOWAVE_AT(scene.precision)),
          "Of V, r and Ta. The mechanics is always float64."},
         {"on_unstable", "", choice({"stop", "substep"}, MYOWAVE_AT(scene.on_unstable)),
@@ -286,7 +286,10 @@ std::vector<Section> make_schema() {
          "not "
          "finite: `stop`: the run ends there, with exit status 3; `substep`: it goes back and divides dt, "
          "and "
-         "says how often. A dt past the bound of the undeformed sheet is refused in both."}}},
+         "says how often. A dt past the bound of the undeformed sheet is refused in both."},
+        {"quiescent", "", number(MYOWAVE_AT(scene.quiescent), {.low = 0, .high = 1e-3}),
+         "Around all waves, nodes whose V, r and Ta / k_Ta are this close to zero are left as they are. "
+         "0: no bit of a result changes; 1e-12: the last digits. On hosts only."}}},
       {"output",
        "What is written, besides summary.json, manifest.json, tips.csv, area.csv and probes.csv.",
        {{"every", "t.u.", output_every(),

@@ -127,6 +127,7 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       spare_{View("myowave::solver::V_next", 1, grid_.rows, grid_.columns), {}, {}},
       clean_(clean_range(scene, state)),
       stable_dt_(largest_stable_dt(scene, undeformed_trace)),
+      active_(grid_, scene.quiescent, scene.tension.k_Ta),
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
       tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)),
@@ -302,7 +303,7 @@ void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, d
   const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns};
   const auto take = [&](const auto& diffusion) {
     with_model(scene_, model_, [&](const auto& model) {
-      tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record);
+      tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record, &active_);
     });
   };
   std::visit(
@@ -328,6 +329,7 @@ void Electromechanics<ExecutionSpace, Real>::single_step(int n,
   for (const auto& stimulus : stimuli)
     tissue::add_stimulus(space_, spare_.V, stimulus, dt / scene_.excitation.C_m);
   std::swap(state_.V, spare_.V);
+  active_.forget();
 }
 
 template <class ExecutionSpace, class Real>
@@ -338,6 +340,7 @@ void Electromechanics<ExecutionSpace, Real>::keep() {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::go_back() {
   copy_fields(space_, state_, kept_);
+  active_.forget();
 }
 
 template <class ExecutionSpace, class Real>

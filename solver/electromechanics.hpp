@@ -125,6 +125,7 @@ class Electromechanics {
   tissue::ExcitationFields<View> kept_;
   CleanRange clean_;
   double stable_dt_;
+  tissue::ActiveBox<Real> active_;
 
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;

@@ -123,6 +123,7 @@ struct Scene {
   std::vector<Stimulus> stimuli;
   Precision precision = Precision::float64;
   OnUnstable on_unstable = OnUnstable::stop;
+  double quiescent = 0;  // |V|, |r|, |Ta| / k_Ta at rest; 0: exactly
   OutputSettings output;
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/base/views.hpp"
+#include "kernels/tissue/grid.hpp"
 
 namespace myowave::observe {
 
@@ -48,6 +49,16 @@ struct ProbeRecorder {
     for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p) {
       const std::int64_t place = nodes(p) - first;
       if (place >= 0 && place < end - begin) lanes.once([&]() { record(step, p) = V[place]; });
+    }
+  }
+
+  // The host's: of the nodes outside a box, which keep their V through all steps of a launch.
+  template <class View>
+  void outside(const tissue::NodeBox& box, const View& V, int first_step, int steps) const {
+    for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p) {
+      const int i = static_cast<int>(nodes(p) / columns), j = static_cast<int>(nodes(p) % columns);
+      if (box.contains(i, j)) continue;
+      for (int step = first_step; step < first_step + steps; ++step) record(step, p) = V(0, i, j);
     }
   }
 };

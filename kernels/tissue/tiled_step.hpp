@@ -16,6 +16,7 @@
 //   Ta_next          (members, rows, columns)   kPa    write, of several sweeps also read
 #pragma once
 
+#include "kernels/tissue/active_box.hpp"
 #include "kernels/tissue/row_update.hpp"
 
 namespace myowave::tissue {
@@ -26,10 +27,12 @@ struct ExcitationFields {
   View V, r, Ta;
 };
 
-// Nodes that a team owns, the steps of a sweep over them, and the sweeps of one launch, more than one only
-// where a tile is a whole sheet. After an even number of sweeps the new state is where the old one was.
+// Nodes that a team owns, the steps of a sweep over them, the sweeps of one launch, more than one only where
+// a tile is a whole sheet, and the nodes that are taken; none: all. After an even number of sweeps the new
+// state is where the old one was.
 struct TilePlan {
   int rows = 1, columns = 1, depth = 1, sweeps = 1;
+  NodeBox box = {};
 };
 
 // Looks at V of the owned nodes before each step; nothing by default.
@@ -37,6 +40,8 @@ struct NoRecorder {
   template <class Columns, class Real>
   KOKKOS_FUNCTION void operator()(const Columns&, int /*m*/, int /*i*/, int /*step*/, int /*begin*/,
                                   int /*end*/, const Real* /*V from column begin on*/) const {}
+  template <class View>
+  void outside(const NodeBox&, const View& /*V*/, int /*first_step*/, int /*steps*/) const {}
 };
 
 // Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
@@ -69,7 +74,7 @@ struct TiledStep {
   Diffusion diffusion;
   Model model;
   Real dt;
-  TilePlan plan;
+  TilePlan plan;  // with its box
   int row_tiles, column_tiles;
   ExcitationFields<View> old_state, new_state;
   int first_step;
@@ -135,12 +140,13 @@ struct TiledStep {
   // record(columns, m, i, step, begin, end, V), which sees V of the owned columns of row i before each step.
   // No fence. plan.columns is a multiple of a line's entries, or all columns.
   static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
-                     const TilePlan& plan, const ExcitationFields<View>& old_state,
+                     TilePlan plan, const ExcitationFields<View>& old_state,
                      const ExcitationFields<View>& new_state, int first_step = 0,
                      const Recorder& record = {}) {
     const int members = static_cast<int>(old_state.V.extent(0));
-    const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
-              column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
+    if (plan.box.rows() == 0) plan.box = whole(diffusion.grid);
+    const int row_tiles = tiles_of(plan.box.rows(), plan.rows),
+              column_tiles = tiles_of(plan.box.columns(), plan.columns);
     const TiledStep step{diffusion,    model,     Real(dt),  plan,       row_tiles,
                          column_tiles, old_state, new_state, first_step, record};
     Policy policy(space, members * row_tiles * column_tiles, warps, lanes);
@@ -220,9 +226,10 @@ struct TiledStep {
 
   KOKKOS_FORCEINLINE_FUNCTION Tile tile_of(int rank) const {
     const int tiles = row_tiles * column_tiles, tile = rank % tiles, columns = diffusion.grid.columns;
-    const int first_row = tile / column_tiles * plan.rows, first_column = tile % column_tiles * plan.columns;
-    const int last_row = Kokkos::min(first_row + plan.rows, diffusion.grid.rows);
-    const int last_column = Kokkos::min(first_column + plan.columns, columns);
+    const int first_row = plan.box.first_row + tile / column_tiles * plan.rows,
+              first_column = plan.box.first_column + tile % column_tiles * plan.columns;
+    const int last_row = Kokkos::min(first_row + plan.rows, plan.box.last_row);
+    const int last_column = Kokkos::min(first_column + plan.columns, plan.box.last_column);
     const int origin = Kokkos::max(0, first_column - plan.depth) / line * line;
     const int width = (Kokkos::min(last_column + plan.depth, columns) - origin + line - 1) / line * line;
     return {rank / tiles, first_row, last_row, first_column,
@@ -310,16 +317,28 @@ struct TiledStep {
 };
 
 // Any number of steps without a stimulus, in sweeps of equal depth as far as it goes. The new state is in
-// `state` afterwards; `spare` are fields of the same shape.
+// `state` afterwards; `spare` are fields of the same shape. On a host, launches take the nodes of the active
+// box, if there is one, else all; on a device all, for a look would wait for the launch before.
 template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
 void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                  int steps, ExcitationFields<View>& state, ExcitationFields<View>& spare, int first_step = 0,
-                 const Recorder& record = {}) {
+                 const Recorder& record = {},
+                 [[maybe_unused]] ActiveBox<typename Diffusion::Scalar>* active = nullptr) {
   using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
   const int members = static_cast<int>(state.V.extent(0));
   const int sweeps = tiles_of(steps, Step::largest_depth());
   for (int n = 0, done = 0; n < sweeps;) {
-    TilePlan plan = Step::plan_tiles(space, diffusion.grid, members, (steps - done) / (sweeps - n));
+    const int depth = (steps - done) / (sweeps - n);
+    NodeBox box = whole(diffusion.grid);
+    if constexpr (Step::on_host)
+      if (active) {
+        space.fence("myowave::tissue::active_box");
+        box = active->find(state, spare, depth, Step::line);
+        if (box.rows() == 0) return record.outside(box, state.V, first_step + done, steps - done);
+        record.outside(box, state.V, first_step + done, depth);
+      }
+    TilePlan plan = Step::plan_tiles(space, {box.rows(), box.columns()}, members, depth);
+    plan.box = box;
     const bool whole_sheets = plan.rows == diffusion.grid.rows && plan.columns == diffusion.grid.columns;
     const int deeper = (steps - done) % (sweeps - n);  // of those to come are one step deeper
     if (whole_sheets) plan.sweeps = sweeps - n - deeper;

@@ -52,7 +52,7 @@ std::string other_value(const Key& key) {
   if (key.name == "period") return "33.5";
   if (key.name == "every" || key.name == "tips_every" || key.name == "probes_every") return "0.5";
   if (key.name == "dt") return "0.01";
-  if (key.name == "tolerance") return "1e-6";
+  if (key.name == "tolerance" || key.name == "quiescent") return "1e-6";
   if (std::holds_alternative<apps::Number>(key.kind)) return key.name == "a" ? "0.25" : "1.25";
   if (std::holds_alternative<apps::Integer>(key.kind)) return "7";
   if (std::holds_alternative<apps::Pair>(key.kind)) return "[2,-3]";
