@@ -65,7 +65,7 @@ void add_rows(const DeformedSheet& sheet, const StabilityBounds& bounds, const L
           bounds.excited, bounds.at_rest, ratio * bounds.excited, seen(report.noise), seen(report.min_V),
           seen(report.max_V), std::string(refused ? "refuses" : "admits")},
          static_cast<std::size_t>(report.outcome()),
-         true});
+         refused || report.told() || report.outcome() == StepOutcome::right});
   }
 }
 

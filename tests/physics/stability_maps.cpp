@@ -141,6 +141,15 @@ TEST_P(Bound, IsAtMostATenthTooStrict) {
 INSTANTIATE_TEST_SUITE_P(StabilityMaps, Bound, ::testing::ValuesIn(deformations),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// What a run takes and does not tell of is what a map must not hide.
+TEST(StabilityMaps, WrongWithoutAWordIsNotTold) {
+  const solver::StepReport noisy{.blown_up = false, .noise = 0.1, .min_V = 0, .max_V = 1.01};
+  EXPECT_EQ(noisy.outcome(), StepOutcome::wrong);
+  EXPECT_FALSE(noisy.told());
+  EXPECT_TRUE((solver::StepReport{.blown_up = false, .noise = 0.1, .min_V = 0, .max_V = 1.1}.told()));
+  EXPECT_TRUE(solver::StepReport{.blown_up = true}.told());
+}
+
 TEST(StabilityMaps, EveryOutcomeOccursAndNoneIsMissed) {
   std::set<std::size_t> outcomes;
   for (const auto& row : crumpled_map().rows) {
