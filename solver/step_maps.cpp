@@ -63,9 +63,10 @@ void add_rows(const DeformedSheet& sheet, const StabilityBounds& bounds, const L
     table.rows.push_back(
         {{name_of(sheet.trial), precision_of(sheet.trial), sheet.value, bounds.max_trace_inverse_C,
           bounds.excited, bounds.at_rest, ratio * bounds.excited, seen(report.noise), seen(report.min_V),
-          seen(report.max_V), std::string(refused ? "refuses" : "admits")},
+          seen(report.max_V), std::string(refused ? "refuses" : "admits"),
+          std::string(report.told ? "tells" : "silent")},
          static_cast<std::size_t>(report.outcome()),
-         refused || report.told() || report.outcome() == StepOutcome::right});
+         refused || report.told || report.outcome() == StepOutcome::right});
   }
 }
 
@@ -155,7 +156,7 @@ MapTable map_of_steps(std::string name, std::string caption, MapColumn deformati
   table.columns = {{"form", ""},        {"precision", ""}, deformation,
                    {"max_tr_C^-1", ""}, {"bound", "t.u."}, {"bound_at_rest", "t.u."},
                    {"dt", "t.u."},      {"noise", ""},     {"min_V", ""},
-                   {"max_V", ""},       {"guard", ""}};
+                   {"max_V", ""},       {"guard", ""},     {"watch", ""}};
   std::map<std::string, std::pair<double, double>>
       nearest;  // of a form: dt / bound not right, at which value
   table.findings = {

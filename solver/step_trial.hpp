@@ -24,11 +24,10 @@ struct StepReport {
   bool blown_up = false;  // V not finite or beyond +-10
   double noise = 0;       // largest at any look, see kernels/observe/grid_noise.hpp
   double min_V = 0, max_V = 0;
+  bool told = false;  // the watch of a run (solver/state_fault.hpp) finds fault at some look
 
   // Wrong: finite, but with more grid-scale noise than the steepest front makes, or a V above 1.
   StepOutcome outcome() const;
-  // Whether a run that took these steps would end with a word.
-  bool told() const;
 };
 
 struct StabilityBounds {
@@ -39,8 +38,9 @@ struct StabilityBounds {
 
 StabilityBounds stability_bounds(const StepTrial&);
 
-// Looks at V once in a t.u., from 5 t.u. on: the front starts as a jump, which is grid-scale noise until it
-// has spread. To let a growing mode show within the run, V starts with 1e-6 of alternating sign at each node.
+// Looks at the state once in a t.u., for noise and range of V from 5 t.u. on: the front starts as a jump,
+// which is grid-scale noise until it has spread. To let a growing mode show within the run, V starts with
+// 1e-6 of alternating sign at each node.
 StepReport try_steps(const StepTrial&, double dt);
 
 }  // namespace myowave::solver

@@ -141,13 +141,11 @@ TEST_P(Bound, IsAtMostATenthTooStrict) {
 INSTANTIATE_TEST_SUITE_P(StabilityMaps, Bound, ::testing::ValuesIn(deformations),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// What a run takes and does not tell of is what a map must not hide.
-TEST(StabilityMaps, WrongWithoutAWordIsNotTold) {
-  const solver::StepReport noisy{.blown_up = false, .noise = 0.1, .min_V = 0, .max_V = 1.01};
-  EXPECT_EQ(noisy.outcome(), StepOutcome::wrong);
-  EXPECT_FALSE(noisy.told());
-  EXPECT_TRUE((solver::StepReport{.blown_up = false, .noise = 0.1, .min_V = 0, .max_V = 1.1}.told()));
-  EXPECT_TRUE(solver::StepReport{.blown_up = true}.told());
+// The watch of a run and the maps judge apart from one another.
+TEST(StabilityMaps, TheWatchOfARunTellsOfWhatIsWrongAndOfNothingElse) {
+  const auto sheet = sheet_of(MetricForm::none, Precision::float64, 10, undeformed);
+  for (const double dt : {0.02, 0.067}) EXPECT_FALSE(solver::try_steps(sheet, dt).told) << dt;
+  for (const double dt : {0.072, 0.077, 0.085, 0.09}) EXPECT_TRUE(solver::try_steps(sheet, dt).told) << dt;
 }
 
 TEST(StabilityMaps, EveryOutcomeOccursAndNoneIsMissed) {
