@@ -132,7 +132,7 @@ void require_clean_start(const Scene& scene, const InitialState& state) {
     if (r < runaway && V >= 0)
       throw InputError(
           fmt::format("the initial state {} runs away: r below -eps (mu2 + V) / mu1 falls without end, below "
-                      "{:.3g} at every V",
+                      "{:.3g} at every V. Raise r there, or excitation.eps",
                       node_text(state, node), runaway));
     const double rate = e.eps + e.mu1 * r / (e.mu2 + V);
     if (r > 0 && scene.time.dt * rate > 1)

@@ -306,7 +306,7 @@ TEST(Refusal, OfStatesThatRunAway) {
   EXPECT_EQ(
       refusal(scene, start(0.5, -0.12)),
       "the initial state at node (row 1, column 1), V = 0.5, r = -0.12 runs away: r below -eps (mu2 + V) / "
-      "mu1 falls without end, below -0.11 at every V");
+      "mu1 falls without end, below -0.11 at every V. Raise r there, or excitation.eps");
   EXPECT_EQ(
       refusal(scene, start(-0.31, 0.5)),
       "the initial state at node (row 1, column 1), V = -0.31, r = 0.5 is at or below -excitation.mu2 = "

@@ -107,7 +107,7 @@ class RandomScene {
   }
 
   void time() {
-    const double bound = std::min(0.9, 2 * C_m_ / (8 * D_ / (dx_ * dx_) + k_ * std::abs(1 - a_)));
+    const double bound = std::min(0.9, 2 * C_m_ / (8 * D_ / (dx_ * dx_) + k_ * std::max(a_, 1 - a_)));
     // A sheet that contracts needs a smaller step than the undeformed one.
     dt_ = rounded(bound * draw_.number(0.05, deforms_ ? 0.4 : 0.98));
     steps_ = draw_.integer(0, 300);
