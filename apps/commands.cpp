@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <Kokkos_Core.hpp>
-#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "apps/estimate.hpp"
 #include "apps/initial_state.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress_line.hpp"
@@ -96,65 +97,34 @@ void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
   fmt::print("  results     {}\n", folder.string());
 }
 
-std::int64_t step_count(double duration, const solver::Scene& scene) {
-  return std::llround(duration / scene.time.dt);
-}
-
-// Mean Newton iterations of a warm-started solve every 80 steps, measured over 1345 t.u. of spirals
-// on 25 x 25 elements.
-double iterations_per_solve(const solver::Scene& scene) {
-  return scene.tension.law == "printed" ? 10.8 : 6.8;
-}
-
-struct Estimate {
-  double scene_s = 0;
-  double preconditions_s = 0;
-};
-
-// Extrapolates the time of the whole scene from a few steps of it. They start from a broken front,
-// as work depends on what the sheet does.
-Estimate estimate(const solver::Scene& scene) {
-  const auto nodes = static_cast<double>(scene.grid.rows) * scene.grid.columns;
-  constexpr double trial_node_steps = 1e9;  // about a second
-  const auto steps = static_cast<std::int64_t>(std::clamp(trial_node_steps / nodes, 20.0, 400.0));
-
-  solver::Scene trial = scene;
-  trial.time.t_end = static_cast<double>(steps) * scene.time.dt;
-  trial.initial = {};
-  trial.initial.type = solver::InitialSettings::Type::broken_front;
-  if (trial.mechanics)
-    trial.mechanics->interval =
-        static_cast<int>(std::min<std::int64_t>(scene.mechanics->interval, steps / 4));
-  solver::OutputSink nowhere;
-  solver::RunSummary summary;
-  solver::run(trial, solver::make_initial_state(trial), nowhere, summary);
-
-  const solver::PhaseSeconds& phases = summary.phases;
-  const double step_s = (phases.excitation + phases.transfer + phases.observe) / static_cast<double>(steps);
-  Estimate result;
-  result.scene_s = static_cast<double>(step_count(scene.time.t_end, scene)) * step_s;
-  for (const auto& one : scene.initial.preconditions) {
-    result.preconditions_s += static_cast<double>(step_count(one.duration, scene)) * step_s;
-  }
-  if (scene.mechanics && summary.mechanics.newton_iterations > 0) {
-    const double solve_s = phases.mechanics / static_cast<double>(summary.mechanics.newton_iterations) *
-                           iterations_per_solve(scene);
-    const auto solves = [&](double duration) {
-      return static_cast<double>(step_count(duration, scene) / scene.mechanics->interval + 1);
-    };
-    result.scene_s += solves(scene.time.t_end) * solve_s;
-    for (const auto& one : scene.initial.preconditions) {
-      if (one.contraction) result.preconditions_s += solves(one.duration) * solve_s;
-    }
-  }
-  return result;
-}
-
 std::string seconds_text(double seconds) {
-  if (seconds < 1) return "less than 1 s";
+  if (seconds < 10) return fmt::format("about {:.1f} s", seconds);
   if (seconds < 120) return fmt::format("about {:.0f} s", seconds);
   if (seconds < 7200) return fmt::format("about {:.0f} min", seconds / 60);
   return fmt::format("about {:.1f} h", seconds / 3600);
+}
+
+void print_plan(const solver::Plan& plan, double nodes) {
+  fmt::print("{:<18}{:>12}  {}\n", "part", "bytes/node", "what it is, or why it is not there");
+  for (const auto& part : plan.parts) {
+    const std::string bytes = part.bytes() > 0 ? fmt::format("{:.1f}", part.bytes() / nodes) : "";
+    fmt::print("{:<18}{:>12}  {}\n", part.part, bytes,
+               part.active ? fmt::format("{} ({})", part.what, part.why)
+                           : fmt::format("not modelled: {}", part.why));
+  }
+}
+
+void print_time(const solver::Scene& scene) {
+  try {
+    const Estimate time = estimate(scene);
+    fmt::print("time     {}", seconds_text(time.total_s()));
+    if (time.settling_s > 0)
+      fmt::print(", {} of it to settle the spiral, which the cache lacks", seconds_text(time.settling_s));
+    if (time.preconditions_s > 0) fmt::print(", {} of it preconditions", seconds_text(time.preconditions_s));
+    fmt::print("\n");
+  } catch (const std::exception& failure) {  // of the first steps, or of the temporary folder
+    fmt::print("time     unknown: {}\n", failure.what());
+  }
 }
 
 }  // namespace
@@ -195,28 +165,20 @@ void check(const std::string& file, const std::vector<std::string>& overrides) {
     read_state(initial.file, scene.grid.rows, scene.grid.columns, initial.window);
   }
   fmt::print("{}: valid\n", file);
-  for (const std::string& line : solver::model_in_words(scene)) fmt::print("  {}\n", line);
+  const solver::Plan plan = solver::make_plan(scene);
+  const auto nodes = static_cast<double>(scene.grid.rows) * scene.grid.columns;
+  print_plan(plan, nodes);
   for (const std::string& warning : solver::warnings_of(scene)) fmt::print("warning  {}\n", warning);
-  const std::int64_t steps = step_count(scene.time.t_end, scene);
-  fmt::print("length   {}, {} steps\n", time_text(scene.time.t_end, scene), steps);
+  fmt::print("length   {}, {} steps\n", time_text(scene.time.t_end, scene),
+             std::llround(scene.time.t_end / scene.time.dt));
   const auto free = free_memory();
-  fmt::print("memory   {}{}\n", bytes_text(solver::memory_bytes(scene)),
-             free ? fmt::format(", {} are free", bytes_text(*free)) : "");
+  fmt::print("memory   {}{}; bytes a node: {:.0f} of state, {:.0f} of coefficients, {:.0f} in all\n",
+             bytes_text(plan.bytes()), free ? fmt::format(", {} are free", bytes_text(*free)) : "",
+             plan.state_bytes_per_node, plan.coefficient_bytes_per_node, plan.bytes() / nodes);
   std::cout << std::flush;
 
   const Device device;
-  try {
-    const Estimate time = estimate(scene);
-    fmt::print("time     {}", seconds_text(time.scene_s));
-    if (time.preconditions_s > 0)
-      fmt::print(", before it {} of preconditions", seconds_text(time.preconditions_s));
-    if (initial.type == solver::InitialSettings::Type::settled_spiral) {
-      fmt::print("; the settled spiral is computed first where the cache lacks it");
-    }
-    fmt::print(" (without outputs)\n");
-  } catch (const std::runtime_error& failure) {  // a broken front may be no state for these parameters
-    fmt::print("time     unknown: a few steps from a broken front failed: {}\n", failure.what());
-  }
+  print_time(scene);
 }
 
 void describe(const std::string& section, bool markdown) {

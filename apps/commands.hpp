@@ -20,7 +20,7 @@ struct RunRequest {
 // Errors: InputError; NumericalFailure, after what was computed is on disk.
 void run(const RunRequest&);
 
-// Says what the scene models, the memory and the time it takes. Writes nothing.
+// Says what the scene models and what it leaves out, the memory and the time it takes. Leaves nothing behind.
 // Errors: InputError.
 void check(const std::string& scene, const std::vector<std::string>& overrides);
 

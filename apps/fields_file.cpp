@@ -35,7 +35,7 @@ FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, doub
   time_ = create("time", {}, H5T_IEEE_F64LE, "t.u.", "time");
   V_ = create("V", {rows, columns}, H5T_IEEE_F64LE, "1", "transmembrane potential; E[mV] = -80 + 100 V");
   r_ = create("r", {rows, columns}, H5T_IEEE_F64LE, "1", "recovery variable");
-  Ta_ = create("Ta", {rows, columns}, H5T_IEEE_F64LE, "kPa", "active tension");
+  if (shape.tension) Ta_ = create("Ta", {rows, columns}, H5T_IEEE_F64LE, "kPa", "active tension");
   if (shape.deforms()) {
     write_attribute(file_, "cells_per_element", double(shape.cells));
     nodes_ = create("nodes", {hsize_t(shape.element_nodes()), 2}, H5T_IEEE_F64LE, "length units",
@@ -96,7 +96,7 @@ void FieldsFile::append(const solver::Frame& frame) {
 void FieldsFile::append_datasets(const solver::Frame& frame) {
   extend(V_, H5T_NATIVE_DOUBLE, frame.V.data());
   extend(r_, H5T_NATIVE_DOUBLE, frame.r.data());
-  extend(Ta_, H5T_NATIVE_DOUBLE, frame.Ta.data());
+  if (shape_.tension) extend(Ta_, H5T_NATIVE_DOUBLE, frame.Ta.data());
   if (shape_.deforms()) {
     extend(nodes_, H5T_NATIVE_DOUBLE, frame.nodes.data());
     extend(grid_, H5T_NATIVE_FLOAT, grid_positions(shape_, frame.nodes).data());

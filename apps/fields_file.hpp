@@ -2,7 +2,7 @@
 //
 //   time   [frame]                 t.u.
 //   V, r   [frame, row, column]    dimensionless
-//   Ta     [frame, row, column]    kPa
+//   Ta     [frame, row, column]    kPa, where it is computed
 //   nodes  [frame, node, 2]        element nodes x1, x2, length units; node = I (element columns + 1) + J
 //   grid   [frame, row, column, 2] grid nodes x1, x2, float32, what a viewer draws V on
 //

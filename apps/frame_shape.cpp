@@ -6,7 +6,7 @@ namespace myowave::apps {
 
 FrameShape frame_shape(const solver::Scene& scene) {
   return {scene.grid.rows, scene.grid.columns, scene.mechanics ? scene.mechanics->cells_per_element : 0,
-          scene.grid.dx};
+          scene.grid.dx, solver::has_tension(scene)};
 }
 
 std::vector<float> grid_positions(const FrameShape& shape, std::span<const double> nodes) {

@@ -15,6 +15,7 @@ struct FrameShape {
   int columns = 0;
   int cells = 0;
   double dx = 0;
+  bool tension = true;  // Ta is computed
 
   bool deforms() const { return cells > 0; }
   int element_rows() const { return deforms() ? (rows - 1) / cells : 0; }

@@ -68,16 +68,6 @@ std::string definition(const solver::Scene& scene) {
       scene.initial.offset[1]);
 }
 
-InitialState settle(int rows, int columns, solver::OutputSink& progress) {
-  const solver::Scene scene = settling_scene(rows, columns);
-  const std::string text = definition(scene);
-  return cached_state(cached_state_path("settled_spiral", text), text, [&] {
-    SettlingProgress told(progress);
-    solver::RunSummary summary;
-    return solver::run(scene, solver::make_initial_state(scene), told, summary);
-  });
-}
-
 InitialState cut(const InitialState& whole, int row0, int column0, int rows, int columns) {
   InitialState part{rows, columns, {}, {}, {}};
   for (auto field : {&InitialState::V, &InitialState::r, &InitialState::Ta}) {
@@ -100,14 +90,28 @@ std::optional<std::array<int, 2>> window_of_protocol(const solver::Scene& scene)
                                                         : std::nullopt;
 }
 
+// On the protocol's sheet where the scene's is a part of it, else on one of the scene's size; the core is
+// then where it settles.
+solver::Scene scene_to_settle(const solver::Scene& scene) {
+  return window_of_protocol(scene) ? settling_scene(protocol_nodes, protocol_nodes)
+                                   : settling_scene(scene.grid.rows, scene.grid.columns);
+}
+
+InitialState settle(const solver::Scene& scene, solver::OutputSink& progress) {
+  const std::string text = definition(scene);
+  return cached_state(cached_state_path("settled_spiral", text), text, [&] {
+    SettlingProgress told(progress);
+    solver::RunSummary summary;
+    return solver::run(scene, solver::make_initial_state(scene), told, summary);
+  });
+}
+
 InitialState settled_spiral(const solver::Scene& scene, solver::OutputSink& progress) {
   require_settled_spiral(scene);
   const auto& [rows, columns, dx] = scene.grid;
-  if (const auto window = window_of_protocol(scene)) {
-    return cut(settle(protocol_nodes, protocol_nodes, progress), (*window)[0], (*window)[1], rows, columns);
-  }
-  // A sheet that large has the protocol run on itself; the core is where it settles.
-  return settle(rows, columns, progress);
+  InitialState settled = settle(scene_to_settle(scene), progress);
+  const auto window = window_of_protocol(scene);
+  return window ? cut(settled, (*window)[0], (*window)[1], rows, columns) : settled;
 }
 
 InitialState from_type(const solver::Scene& scene, solver::OutputSink& progress) {
@@ -154,6 +158,13 @@ void require_settled_spiral(const solver::Scene& scene) {
         "the settled sheet of {} x {} (core at row {}, column {})",
         column_offset, row_offset, rows, columns, protocol_nodes, protocol_nodes, core_row, core_column));
   }
+}
+
+std::optional<solver::Scene> spiral_to_settle(const solver::Scene& scene) {
+  if (scene.initial.type != solver::InitialSettings::Type::settled_spiral) return std::nullopt;
+  solver::Scene settling = scene_to_settle(scene);
+  const bool there = std::filesystem::exists(cached_state_path("settled_spiral", definition(settling)));
+  return there ? std::nullopt : std::optional(std::move(settling));
 }
 
 InitialState resolve_initial_state(const solver::Scene& scene, solver::OutputSink& progress) {

@@ -1,6 +1,8 @@
 // Initial states that come from files or from the user's cache.
 #pragma once
 
+#include <optional>
+
 #include "solver/run.hpp"
 
 namespace myowave::apps {
@@ -14,6 +16,10 @@ solver::InitialState read_state(const std::string& file, int rows, int columns,
 // Whether a settled spiral can be had on the scene's sheet with its core where the scene wants it.
 // Errors: InputError that says why not.
 void require_settled_spiral(const solver::Scene&);
+
+// The run that makes the scene's settled spiral; empty where the cache holds it already, or the scene starts
+// from something else.
+std::optional<solver::Scene> spiral_to_settle(const solver::Scene&);
 
 // The scene's initial state, whatever its type, with its noise. A settled spiral is computed once
 // (`progress` is told) and kept in the user's cache by content hash.

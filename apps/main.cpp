@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   run->add_flag("--quiet", request.quiet, "No progress and no result on the terminal");
 
   CLI::App* check =
-      app.add_subcommand("check", "Say what a scene models, its memory and its time; write nothing");
+      app.add_subcommand("check", "Say what a scene models, its memory and its time; leave nothing behind");
   add_scene(*check, request.scene, request.overrides);
 
   std::string section;

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/plan.hpp"
 
 namespace myowave::apps {
 

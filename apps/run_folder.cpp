@@ -140,7 +140,12 @@ void RunFolder::fields(const solver::Frame& frame) {
 }
 
 void RunFolder::probes(double t, std::span<const double> values) {
-  impl_->probes.append(fmt::format("{},{}\n", t, fmt::join(values, ",")));
+  std::string row = fmt::format("{}", t);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const bool is_tension = n % 3 == 2;
+    row += is_tension && !impl_->shape.tension ? "," : fmt::format(",{}", values[n]);
+  }
+  impl_->probes.append(row + '\n');
 }
 
 void RunFolder::tips(double t, std::span<const solver::Tip> tips) {

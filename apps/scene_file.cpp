@@ -672,6 +672,7 @@ class SceneReader {
     } else if (fine({"time.dt"})) {
       follow_step(output);
     }
+    if (!given_.contains("output.tension")) output.tension = scene_.mechanics || output.fields;
     if (output.tips_every != output.every) check_multiple("output.tips_every", output.tips_every);
     if (output.probes_every != output.every) check_multiple("output.probes_every", output.probes_every);
     if (!sheet_known_) return;

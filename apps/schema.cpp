@@ -302,6 +302,10 @@ std::vector<Section> make_schema() {
         {"frames", "", flag(MYOWAVE_AT(scene.output.frames)), "PNG pictures of V on the deformed sheet."},
         {"fields", "", flag(MYOWAVE_AT(scene.output.fields)),
          "fields.h5 with V, r, Ta and nodes, and its .xdmf."},
+        {"tension", "", flag(MYOWAVE_AT(scene.output.tension)),
+         "`false`: Ta is computed only where it contracts the sheet. A contracting run that starts from "
+         "fields.h5 needs it there.",
+         "true with [mechanics] or fields = true"},
         {"probes", "", Probes{}, "Nodes whose V, r and Ta go to probes.csv.",
          "the four nodes a quarter of a side from the corners"},
         {"period_from", "t.u.", number(MYOWAVE_AT(scene.output.period_from), not_negative),

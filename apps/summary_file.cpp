@@ -21,10 +21,26 @@ json pair(const std::optional<std::pair<double, double>>& values, const char* fi
 }
 
 json mechanics(const solver::MechanicsStatistics& m) {
-  return {{"solves", m.solves},         {"newton_iterations", m.newton_iterations},
-          {"newton_max", m.newton_max}, {"factorizations", m.factorizations},
-          {"shifts", m.shifts},         {"not_elliptic", m.not_elliptic},
+  return {{"solves", m.solves},
+          {"left_out", m.left_out},
+          {"newton_iterations", m.newton_iterations},
+          {"newton_max", m.newton_max},
+          {"factorizations", m.factorizations},
+          {"shifts", m.shifts},
+          {"not_elliptic", m.not_elliptic},
           {"min_J", number(m.min_J)}};
+}
+
+json plan(const solver::Plan& all) {
+  json parts = json::array();
+  for (const auto& part : all.parts) {
+    parts.push_back({{"part", part.part},
+                     {"active", part.active},
+                     {"what", part.what},
+                     {"why", part.why},
+                     {"bytes", part.bytes()}});
+  }
+  return parts;
 }
 
 json observables(const solver::Observables& o) {
@@ -41,7 +57,8 @@ json observables(const solver::Observables& o) {
 json summary_json(const solver::RunSummary& summary, bool deforms,
                   const std::optional<std::string>& failure) {
   const auto& phases = summary.phases;
-  return {{"model", summary.model},
+  return {{"model", summary.plan.in_words()},
+          {"plan", plan(summary.plan)},
           {"steps", summary.steps},
           {"t", number(summary.t)},
           {"failure", failure ? json(*failure) : json(nullptr)},

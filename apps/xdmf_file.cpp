@@ -28,7 +28,7 @@ XdmfFile::XdmfFile(const std::filesystem::path& path, const FrameShape& shape, s
       file_(path, fmt::format("{}{}", head, tail)) {}
 
 // One frame of a dataset. The dataset grows; its size is given as it is with this frame.
-std::string XdmfFile::slab(const char* dataset, int precision, bool vector, std::size_t frame) const {
+std::string XdmfFile::slab(std::string_view dataset, int precision, bool vector, std::size_t frame) const {
   const auto shape = fmt::format("{} {}{}", shape_.rows, shape_.columns, vector ? " 2" : "");
   const std::string_view zeros = vector ? "0 0 0" : "0 0";
   const std::string_view ones = vector ? "1 1 1" : "1 1";
@@ -62,7 +62,8 @@ void XdmfFile::append(std::size_t frame, double t) {
 )",
                         grid_size_, shape_.dx);
   }
-  for (const char* name : {"V", "r", "Ta"}) {
+  for (const std::string_view name : {"V", "r", "Ta"}) {
+    if (name == "Ta" && !shape_.tension) continue;
     text += fmt::format(R"(    <Attribute Name="{}" AttributeType="Scalar" Center="Node">
 {}    </Attribute>
 )",

@@ -1,11 +1,12 @@
-// fields.xdmf: tells a viewer (ParaView's "XDMF Reader", VisIt) how to show fields.h5: V, r and Ta as
-// a time series on the deformed grid, or on the regular one of a rigid run. (ParaView's Xdmf3 readers
-// know no part of a dataset, which is what a frame is.)
+// fields.xdmf: tells a viewer (ParaView's "XDMF Reader", VisIt) how to show fields.h5: V, r and, where it
+// is computed, Ta as a time series on the deformed grid, or on the regular one of a rigid run. (ParaView's
+// Xdmf3 readers know no part of a dataset, which is what a frame is.)
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "apps/file_io.hpp"
 #include "apps/frame_shape.hpp"
@@ -21,7 +22,7 @@ class XdmfFile {
   void append(std::size_t frame, double t);
 
  private:
-  std::string slab(const char* dataset, int precision, bool vector, std::size_t frame) const;
+  std::string slab(std::string_view dataset, int precision, bool vector, std::size_t frame) const;
 
   FrameShape shape_;
   std::string fields_name_;

@@ -40,12 +40,6 @@ elastic::ElementGrid make_elements(const Scene& scene) {
   return {(scene.grid.rows - 1) / cells, (scene.grid.columns - 1) / cells, cells * scene.grid.dx};
 }
 
-// Room for singularities: turbulence has tens, raw step data hundreds; more than one in four squares
-// is noise and only counted.
-std::size_t tip_capacity(const GridSettings& grid) {
-  return std::max<std::size_t>(256, static_cast<std::size_t>(grid.rows) * grid.columns / 4);
-}
-
 template <class View>
 void upload(const View& view, const std::vector<double>& values) {
   using Real = typename View::non_const_value_type;
@@ -118,8 +112,7 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       grid_{scene.grid.rows, scene.grid.columns, scene.grid.dx},
       schedule_(scene.stimuli, scene.grid, scene.time.dt),
       model_(make_model<Real>(scene.excitation, scene.tension)),
-      form_(select_form<ExecutionSpace, Real>(scene.mechanics ? scene.metric : MetricForm::none, grid_,
-                                              make_elements(scene),
+      form_(select_form<ExecutionSpace, Real>(metric_form(scene), grid_, make_elements(scene),
                                               scene.mechanics ? scene.mechanics->cells_per_element : 1)),
       state_{View("myowave::solver::V", 1, grid_.rows, grid_.columns),
              View("myowave::solver::r", 1, grid_.rows, grid_.columns),
@@ -130,7 +123,7 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       active_(grid_, scene.quiescent, scene.tension.k_Ta),
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
-      tip_list_("myowave::solver::tip_list", tip_capacity(scene.grid)),
+      tip_list_("myowave::solver::tip_list", first_tips),
       stimuli_("myowave::solver::stimuli", scene.stimuli.size()) {
   upload(state_.V, state.V);
   upload(state_.r, state.r);
@@ -165,9 +158,10 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
   const Timer timer(phases_->mechanics);
   const Host host;
-  if (scene.mechanics->overlap) solver_space_ = second_host_instance<ExecutionSpace>();
+  if (scene.mechanics->overlap && contracts(scene)) solver_space_ = second_host_instance<ExecutionSpace>();
   equilibrium_.emplace(host, elements, *scene.mechanics);
-  equilibrium_->solve(host, gauss_tension_.host, 0);
+  const SolveReport rest = equilibrium_->solve(host, gauss_tension_.host, 0);
+  statistics_->min_J = std::min(statistics_->min_J, rest.min_J);
   observe::element_areas(host, elements, equilibrium_->nodes(), element_areas_);
   host.fence("myowave::solver::rest_state");
   rest_areas_.assign(element_areas_.data(), element_areas_.data() + element_areas_.size());
@@ -189,18 +183,21 @@ bool Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
   const Timer timer(phases_->transfer);
-  if (scene_.mechanics->contraction)
+  if (contracts(scene_)) {
     transfer::tension_to_gauss<ExecutionSpace, Real>(space_, equilibrium_->grid(),
                                                      scene_.mechanics->cells_per_element, state_.Ta, 0,
                                                      gauss_tension_.device);
-  Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
-  space_.fence("myowave::solver::begin_mechanics");
+    Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
+    space_.fence("myowave::solver::begin_mechanics");
+  }
+  begun_ = BegunSolve{t, {}};
+  if (equilibrium_->is_solved_for(Host(), gauss_tension_.host)) return;
   // Deferred: it is solved where it is taken.
   const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
-  begun_ = BegunSolve{t, std::async(policy, [this, t] {
-                        if (solver_space_) flush_denormals_of_this_thread();
-                        return equilibrium_->solve(solver_space_.value_or(Host()), gauss_tension_.host, t);
-                      })};
+  begun_->report = std::async(policy, [this, t] {
+    if (solver_space_) flush_denormals_of_this_thread();
+    return equilibrium_->solve(solver_space_.value_or(Host()), gauss_tension_.host, t);
+  });
 }
 
 template <class ExecutionSpace, class Real>
@@ -208,22 +205,42 @@ bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
   if (!begun_) return false;
   BegunSolve begun = std::move(*begun_);
   begun_.reset();
+  bool moved = false;
   {
     const Timer timer(phases_->mechanics);
-    const SolveReport report = begun.report.get();
+    if (begun.report.valid())
+      add_to_statistics(begun.report.get());
+    else
+      ++statistics_->left_out;
     first_solve_taken_ = true;
-    ++statistics_->solves;
-    statistics_->newton_iterations += report.iterations;
-    statistics_->newton_max = std::max(statistics_->newton_max, report.iterations);
-    statistics_->factorizations += report.factorizations;
-    statistics_->shifts += report.shifts;
-    statistics_->not_elliptic += report.not_elliptic > 0 ? 1 : 0;
-    statistics_->min_J = std::min(statistics_->min_J, report.min_J);
-    Kokkos::deep_copy(Host(), nodes_.host, equilibrium_->nodes());
-    Host().fence("myowave::solver::finish_mechanics");
+    moved = take_nodes();
   }
-  refresh_metric(t);
-  measure_area(begun.t);
+  if (moved) {
+    refresh_metric(t);
+    measure_area();
+  }
+  area_.t = begun.t;
+  return true;
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::add_to_statistics(const SolveReport& report) {
+  ++statistics_->solves;
+  statistics_->newton_iterations += report.iterations;
+  statistics_->newton_max = std::max(statistics_->newton_max, report.iterations);
+  statistics_->factorizations += report.factorizations;
+  statistics_->shifts += report.shifts;
+  statistics_->not_elliptic += report.not_elliptic > 0 ? 1 : 0;
+  statistics_->min_J = std::min(statistics_->min_J, report.min_J);
+}
+
+// Before the first solve they are all zero, which no sheet's are.
+template <class ExecutionSpace, class Real>
+bool Electromechanics<ExecutionSpace, Real>::take_nodes() {
+  const auto& solved = equilibrium_->nodes();
+  if (std::equal(solved.data(), solved.data() + solved.size(), nodes_.host.data())) return false;
+  Kokkos::deep_copy(Host(), nodes_.host, solved);
+  Host().fence("myowave::solver::take_nodes");
   return true;
 }
 
@@ -251,13 +268,13 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::measure_area(double t) {
+void Electromechanics<ExecutionSpace, Real>::measure_area() {
   const Timer timer(phases_->observe);
   const Host host;
   observe::element_areas(host, equilibrium_->grid(), nodes_.host, element_areas_);
   host.fence("myowave::solver::measure_area");
   const std::span<const double> areas(element_areas_.data(), element_areas_.size());
-  area_ = {t, 0, areas[0] / rest_areas_[0], areas[0] / rest_areas_[0], 0};
+  area_ = {0, 0, areas[0] / rest_areas_[0], areas[0] / rest_areas_[0], 0};
   for (std::size_t e = 0; e < areas.size(); ++e) {
     area_.min_ratio = std::min(area_.min_ratio, areas[e] / rest_areas_[e]);
     area_.max_ratio = std::max(area_.max_ratio, areas[e] / rest_areas_[e]);
@@ -371,20 +388,29 @@ template <class ExecutionSpace, class Real>
 auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   const Timer timer(phases_->observe);
   upload_stimuli(schedule_.active(t));
-  Kokkos::deep_copy(space_, tip_count_.device, 0);
+  const auto look = [&] {
+    Kokkos::deep_copy(space_, tip_count_.device, 0);
+    const double largest_V = std::visit(
+        [&](const auto& form) {
+          using Rate = tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, Model<Real>>;
+          const Rate rate{form.diffusion, model_, state_.V, state_.r,
+                          first_rows(stimuli_, uploaded_stimuli_.size())};
+          return observe::find_phase_singularities(space_, grid_, state_.V, rate, tip_count_.device,
+                                                   tip_list_.device);
+        },
+        form_);
+    Kokkos::deep_copy(space_, tip_count_.host, tip_count_.device);
+    space_.fence("myowave::solver::find_tips");
+    return largest_V;
+  };
   Activity activity;
-  activity.largest_V = std::visit(
-      [&](const auto& form) {
-        using Rate = tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, Model<Real>>;
-        const Rate rate{form.diffusion, model_, state_.V, state_.r,
-                        first_rows(stimuli_, uploaded_stimuli_.size())};
-        return observe::find_phase_singularities(space_, grid_, state_.V, rate, tip_count_.device,
-                                                 tip_list_.device);
-      },
-      form_);
-  Kokkos::deep_copy(space_, tip_count_.host, tip_count_.device);
-  space_.fence("myowave::solver::find_tips");
-  const auto found = std::min<std::size_t>(tip_count_.host(), tip_list_.device.extent(0));
+  activity.largest_V = look();
+  const auto found = static_cast<std::size_t>(tip_count_.host());
+  if (found > tip_list_.device.extent(0)) {  // look again, with room for them
+    tip_list_ =
+        Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>>("myowave::solver::tip_list", 2 * found);
+    look();
+  }
   const auto list = first_rows(tip_list_.host, found);
   Kokkos::deep_copy(space_, list, first_rows(tip_list_.device, found));
   space_.fence("myowave::solver::find_tips");

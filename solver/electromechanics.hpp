@@ -25,6 +25,9 @@ struct AreaSample {
   double shortening = 0;  // 1 - sqrt(area / undeformed area)
 };
 
+// Room for so many tips is there from the begin: turbulence has tens, raw step data hundreds.
+inline constexpr std::size_t first_tips = 256;
+
 // A View and its copy on the host, allocated together, so that a look at it allocates nothing. The
 // same memory where the host reaches the View.
 template <class View>
@@ -105,10 +108,12 @@ class Electromechanics {
 
  private:
   void begin_mechanics(double t);
+  void add_to_statistics(const SolveReport&);
+  bool take_nodes();  // of the solve; true where one has moved
   // Steps without a stimulus, or one with those given; n is the row of the probes' record.
   void tiled_steps(int n, int count, double dt);
   void single_step(int n, const std::vector<tissue::ActiveStimulus>&, double dt);
-  void measure_area(double t);
+  void measure_area();
   void upload_stimuli(const std::vector<tissue::ActiveStimulus>&);
   void refresh_metric(double t);
 
@@ -146,8 +151,8 @@ class Electromechanics {
   std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
 
   struct BegunSolve {
-    double t;  // of its tension
-    std::future<SolveReport> report;
+    double t;                         // of its tension
+    std::future<SolveReport> report;  // none where the solve is left out
   };
   std::optional<Host> solver_space_;  // of solves on a thread of their own
   bool first_solve_taken_ = false;

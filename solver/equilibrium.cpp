@@ -245,6 +245,12 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
 }
 
 template <class ExecutionSpace>
+bool Equilibrium<ExecutionSpace>::is_solved_for(const ExecutionSpace& space,
+                                                const GaussTension<MemorySpace>& Ta) const {
+  return impl_->in_equilibrium && elastic::same_tension(space, impl_->solved_Ta, Ta);
+}
+
+template <class ExecutionSpace>
 const Nodes<typename ExecutionSpace::memory_space>& Equilibrium<ExecutionSpace>::nodes() const {
   return impl_->nodes;
 }

@@ -43,6 +43,10 @@ class Equilibrium {
   // the sheet has no stable rest state.
   SolveReport solve(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double time);
 
+  // The nodes are in equilibrium with this very tension, the same to the bit: a solve would find its residual
+  // small enough at once and move none of them.
+  bool is_solved_for(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta) const;
+
   // Current positions, length units; written by solve().
   const Nodes<MemorySpace>& nodes() const;
   // Back to the undeformed sheet.

@@ -131,9 +131,10 @@ class Stage {
         schedule_(scene),
         observers_(scene) {}
 
-  InitialState run(const InitialState& initial) {
+  InitialState run(InitialState initial) {
     start_ = Clock::now();
     Sheet sheet(Kokkos::DefaultExecutionSpace{}, scene_, initial, summary_.phases, summary_.mechanics);
+    initial = {};  // the sheet has its own
     try {
       advance(sheet);
     } catch (...) {
@@ -314,11 +315,11 @@ class Stage {
   Clock::time_point start_, last_report_;
 };
 
-InitialState run_stage(const Scene& scene, const InitialState& state, OutputSink& sink, RunSummary& summary,
+InitialState run_stage(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
                        RunSummary& whole, const std::string& name, bool observed) {
   return scene.precision == Precision::float32
-             ? Stage<float>(scene, sink, summary, whole, name, observed).run(state)
-             : Stage<double>(scene, sink, summary, whole, name, observed).run(state);
+             ? Stage<float>(scene, sink, summary, whole, name, observed).run(std::move(state))
+             : Stage<double>(scene, sink, summary, whole, name, observed).run(std::move(state));
 }
 
 Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
@@ -338,6 +339,16 @@ Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
 }
 
 }  // namespace
+
+std::vector<Scene> stages_of(const Scene& scene) {
+  std::vector<Scene> stages;
+  for (const auto& precondition : scene.initial.preconditions)
+    stages.push_back(precondition_scene(scene, precondition));
+  stages.push_back(scene);
+  // Ta is part of the state that a later stage starts from.
+  for (std::size_t n = stages.size() - 1; n-- > 0;) stages[n].output.tension = has_tension(stages[n + 1]);
+  return stages;
+}
 
 void require_stable_step(const Scene& scene) {
   require_stable(scene, "");
@@ -371,96 +382,25 @@ InitialState make_initial_state(const Scene& scene) {
   throw InputError("this initial state comes from a file or from the cache, not from a formula");
 }
 
-std::uint64_t memory_bytes(const Scene& scene) {
-  const auto nodes =
-      static_cast<std::uint64_t>(scene.grid.rows) * static_cast<std::uint64_t>(scene.grid.columns);
-  const std::uint64_t real = scene.precision == Precision::float32 ? sizeof(float) : sizeof(double);
-  // V twice, r and Ta twice where steps go tile by tile.
-  const std::uint64_t copies = scene.mechanics && scene.metric == MetricForm::expanded ? 1 : 2;
-  const std::uint64_t kept = scene.on_unstable == OnUnstable::substep ? (has_tension(scene) ? 3 : 2) : 0;
-  const std::uint64_t state_fields = 2 + copies * (has_tension(scene) ? 2 : 1) + kept;
-  constexpr std::uint64_t host_fields = 3 + 3;          // initial and sampled V, r, Ta, float64
-  constexpr std::uint64_t conservative_fields = 4 + 3;  // weights, scratch of their refresh
-  constexpr std::uint64_t expanded_fields = 5;
-  std::uint64_t bytes = nodes * (state_fields * real + host_fields * sizeof(double)) +
-                        nodes / 4 * sizeof(observe::PhaseSingularity);
-  if (!scene.mechanics) return bytes;
-  if (scene.metric == MetricForm::conservative) bytes += nodes * conservative_fields * real;
-  if (scene.metric == MetricForm::expanded) bytes += nodes * expanded_fields * real;
-  const auto cells = static_cast<std::uint64_t>(scene.mechanics->cells_per_element);
-  const std::uint64_t unknowns = 2 * (nodes / (cells * cells) + 1);
-  // Element matrices and the matrix itself (about 18 entries a row), and the factor: a band as wide as
-  // two rows of nodes, at most 256, or with a fill-reducing ordering 31 n log2 n / 4 entries of 12
-  // bytes (planar mesh, George 1973).
-  const double n = static_cast<double>(unknowns);
-  const double band =
-      std::min(256.0, 2.0 * (scene.grid.columns - 1) / scene.mechanics->cells_per_element + 5);
-  const double factor_bytes = std::max(8 * n * band, 12 * 31.0 / 4 * n * std::log2(n + 2));
-  bytes += unknowns * 600 + static_cast<std::uint64_t>(factor_bytes);
-  return bytes;
-}
-
-std::vector<std::string> model_in_words(const Scene& scene) {
-  std::vector<std::string> words;
-  const auto& grid = scene.grid;
-  words.push_back(fmt::format(
-      "Aliev-Panfilov excitation {}, {} x {} nodes, {}, explicit Euler, dt = {} t.u.",
-      has_tension(scene) ? fmt::format("with active tension ({} law)", scene.tension.law)
-                         : std::string("without tension"),
-      grid.rows, grid.columns, scene.precision == Precision::float32 ? "float32" : "float64", scene.time.dt));
-  if (!scene.mechanics) {
-    words.push_back("rigid sheet: no mechanics, no feedback; 5-point diffusion");
-  } else {
-    const auto& m = *scene.mechanics;
-    words.push_back(fmt::format(
-        "incompressible Mooney-Rivlin membrane, {} x {} bilinear elements, {}, {}, solved every {} steps{}",
-        (grid.rows - 1) / m.cells_per_element, (grid.columns - 1) / m.cells_per_element,
-        m.edges == Edges::fixed
-            ? std::string("edges fixed")
-            : fmt::format("edge load p = {} kN/m ({})", m.p, m.load == Load::follower ? "follower" : "dead"),
-        m.contraction ? "loaded by the active tension"
-                      : "no contraction: the active tension does not load it",
-        m.interval, m.overlap ? " while the next steps run: nodes and metric are one interval old" : ""));
-    switch (scene.metric) {
-      case MetricForm::none:
-        words.push_back("no feedback: conduction as in the undeformed sheet");
-        break;
-      case MetricForm::conservative:
-        words.push_back(
-            "feedback: conduction on the deformed metric, conservative form, held between solves");
-        break;
-      case MetricForm::expanded:
-        words.push_back(
-            "feedback: conduction on the deformed metric, expanded form (Eq 24), held between solves");
-        break;
-    }
-  }
-  for (const auto& p : scene.initial.preconditions)
-    words.push_back(fmt::format("precondition: {} t.u. at mu1 = {}, b = {}, {} contraction", p.duration,
-                                p.excitation.mu1, p.excitation.b, p.contraction ? "with" : "without"));
-  return words;
-}
-
 InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary) {
   if (state.rows != scene.grid.rows || state.columns != scene.grid.columns)
     throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
                                  scene.grid.rows, scene.grid.columns));
   require_stable_step(scene);
-  const auto& preconditions = scene.initial.preconditions;
-  require_clean_start(preconditions.empty() ? scene : precondition_scene(scene, preconditions[0]), state);
+  const std::vector<Scene> stages = stages_of(scene);
+  require_clean_start(stages.front(), state);
   flush_denormals();
-  summary.model = model_in_words(scene);
+  summary.plan = make_plan(scene);
   for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
-  std::size_t number = 0;
-  for (const auto& precondition : scene.initial.preconditions) {
+  const std::size_t preconditions = stages.size() - 1;
+  for (std::size_t n = 0; n < preconditions; ++n) {
     RunSummary unused;
-    const std::string name =
-        fmt::format("precondition {} of {}", ++number, scene.initial.preconditions.size());
     const auto start = Clock::now();
-    state = run_stage(precondition_scene(scene, precondition), state, sink, unused, summary, name, false);
+    state = run_stage(stages[n], std::move(state), sink, unused, summary,
+                      fmt::format("precondition {} of {}", n + 1, preconditions), false);
     summary.precondition_s += seconds_since(start);
   }
-  return run_stage(scene, state, sink, summary, summary, "run", true);
+  return run_stage(stages.back(), std::move(state), sink, summary, summary, "run", true);
 }
 
 }  // namespace myowave::solver

@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "solver/plan.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::solver {
 
-// Grid fields, row-major (rows, columns); nodes (element rows + 1, element columns + 1, 2).
+// Grid fields, row-major (rows, columns); Ta is zero where it is not computed. Nodes (element
+// rows + 1, element columns + 1, 2).
 struct InitialState {
   int rows = 0;
   int columns = 0;
@@ -52,7 +54,8 @@ class OutputSink {
  public:
   virtual ~OutputSink() = default;
   virtual void fields(const Frame&) {}
-  virtual void probes(double /*t*/, std::span<const double> /*V0,r0,Ta0,V1,...*/) {}
+  // V0, r0, Ta0, V1, ...; Ta 0 where it is not computed.
+  virtual void probes(double /*t*/, std::span<const double>) {}
   virtual void tips(double /*t*/, std::span<const Tip>) {}
   // Relative to the loaded rest state: whole sheet, smallest and largest element.
   virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
@@ -68,7 +71,9 @@ struct PhaseSeconds {
 };
 
 struct MechanicsStatistics {
-  std::int64_t solves = 0, newton_iterations = 0, newton_max = 0, factorizations = 0, shifts = 0;
+  std::int64_t solves = 0;
+  std::int64_t left_out = 0;  // were due, but no tension had changed since the last one
+  std::int64_t newton_iterations = 0, newton_max = 0, factorizations = 0, shifts = 0;
   std::int64_t not_elliptic = 0;  // solves with a Gauss point where ellipticity is lost
   double min_J = 1;               // smallest at any corner of any element over all accepted solutions
 };
@@ -87,11 +92,11 @@ struct Observables {
 };
 
 struct RunSummary {
-  std::vector<std::string> model;  // what is modelled, in words
-  std::int64_t steps = 0;          // done
-  double t = 0;                    // reached
-  PhaseSeconds phases;             // of the scene itself, preconditions apart
-  double wall_s = 0;               // likewise
+  Plan plan;               // what is modelled
+  std::int64_t steps = 0;  // done
+  double t = 0;            // reached
+  PhaseSeconds phases;     // of the scene itself, preconditions apart
+  double wall_s = 0;       // likewise
   double precondition_s = 0;
   double cell_steps_per_s = 0;  // nodes * steps / wall_s
   MechanicsStatistics mechanics;
@@ -101,10 +106,10 @@ struct RunSummary {
   Observables observables;
 };
 
-// What is modelled, in words, and the bytes that its state needs: for `check` and the memory test
-// before anything is allocated (64-bit arithmetic).
-std::vector<std::string> model_in_words(const Scene&);
-std::uint64_t memory_bytes(const Scene&);
+// The scenes that a run goes through: its preconditions, then itself. Each goes on from the state of the
+// one before.
+// Errors: InputError where a precondition contracts a rigid sheet.
+std::vector<Scene> stages_of(const Scene&);
 
 // Refuses what is certainly unstable in the scene or a precondition, whatever on_unstable says: dt past the
 // bound of the undeformed sheet is a wrong input.

@@ -107,6 +107,7 @@ struct OutputSettings {
   double probes_every = 1;  // t.u.
   bool frames = false;
   bool fields = false;
+  bool tension = true;                     // Ta is shown, or another run starts from it
   std::vector<std::array<int, 2>> probes;  // (row, column); empty in a file: the four default ones
   double period_from = 100;                // t.u.
 };
@@ -127,6 +128,18 @@ struct Scene {
   OutputSettings output;
 };
 
-inline bool has_tension(const Scene& scene) { return scene.tension.law != "none"; }
+// What the scene requires: the plan tells it (solver/plan.hpp), the run computes it.
+
+inline bool contracts(const Scene& scene) { return scene.mechanics && scene.mechanics->contraction; }
+
+// Ta is stored and computed.
+inline bool has_tension(const Scene& scene) {
+  return scene.tension.law != "none" && (contracts(scene) || scene.output.tension);
+}
+
+// The form of the diffusion term.
+inline MetricForm metric_form(const Scene& scene) {
+  return scene.mechanics ? scene.metric : MetricForm::none;
+}
 
 }  // namespace myowave::solver

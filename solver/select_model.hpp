@@ -66,12 +66,16 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
 // nodes, to rounding the same, than with its arrays, which no cache holds then (bench/README.md).
 inline constexpr std::int64_t nodes_of_large_sheet = 2'000'000;
 
+template <class ExecutionSpace>
+constexpr bool takes_metric_from_nodes(std::int64_t rows, std::int64_t columns) {
+  return runs_on_host<ExecutionSpace> && rows * columns >= nodes_of_large_sheet;
+}
+
 // action(diffusion) with the diffusion of a form that several steps in one launch take.
 template <class ExecutionSpace, class Form, class NodesView, class Action>
 void with_fastest_metric(const Form& form, const NodesView& nodes, const Action& action) {
   if constexpr (runs_on_host<ExecutionSpace> && requires { form.from_nodes; }) {
-    const tissue::Grid& grid = form.diffusion.grid;
-    if (static_cast<std::int64_t>(grid.rows) * grid.columns >= nodes_of_large_sheet) {
+    if (takes_metric_from_nodes<ExecutionSpace>(form.diffusion.grid.rows, form.diffusion.grid.columns)) {
       auto diffusion = form.from_nodes;
       diffusion.nodes = nodes;
       return action(diffusion);

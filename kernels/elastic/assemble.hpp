@@ -109,6 +109,21 @@ void mix_tension(const Space& space, const GaussTension<typename Space::memory_s
       });
 }
 
+// Whether both are the same to the bit at every Gauss point; what is not a number never is.
+template <class Space>
+bool same_tension(const Space& space, const GaussTension<typename Space::memory_space>& one,
+                  const GaussTension<typename Space::memory_space>& other) {
+  int different = 0;
+  Kokkos::parallel_reduce(
+      "myowave::elastic::same_tension", detail::range(space, static_cast<int>(one.extent(0))),
+      KOKKOS_LAMBDA(int e, int& count) {
+        for (int q = 0; q < gauss_points; ++q)
+          if (!(one(e, q) == other(e, q))) ++count;
+      },
+      different);
+  return different == 0;
+}
+
 // Writes the energy of every element and its smallest corner J; where that is not positive the energy
 // means nothing.
 template <class MemorySpace>

@@ -225,6 +225,7 @@ class RandomScene {
       scene_.set("output", "probes", "[" + list + "]");
     }
     maybe("output", "period_from", 100, 0, 10);
+    if (draw_.chance(0.3)) flag("output", "tension", 0.5);
   }
 
   Draw draw_;

@@ -93,6 +93,21 @@ TEST(RunFolder, RowsAreOnDiskAtOnce) {
   EXPECT_FALSE(fs::exists(folder / "out/frames"));
 }
 
+TEST(RunFolder, TensionThatIsNotComputedLeavesItsCellsEmpty) {
+  const TemporaryFolder folder;
+  auto scene = scene_of(11, false, true, false);
+  scene.output.tension = false;
+  {
+    RunFolder run(folder / "out", scene, false, true);
+    SyntheticFrames frames(scene);
+    run.fields(frames.at(0.5));
+    run.probes(0.5, std::vector<double>{1, 2, 0, 3, 4, 0});
+  }
+  EXPECT_THAT(read_text(folder / "out/probes.csv"), testing::EndsWith("\n0.5,1,2,,3,4,\n"));
+  EXPECT_EQ(read_state(folder / "out/fields.h5", 11, 11, std::nullopt).Ta, std::vector<double>(121));
+  EXPECT_THAT(read_text(folder / "out/fields.xdmf"), testing::Not(HasSubstr("Ta")));
+}
+
 TEST(RunFolder, RefusesAFolderWithResultsUnlessForced) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out/frames");
@@ -167,7 +182,9 @@ TEST(RunFolder, TheManifestTellsHowToRepeatTheRun) {
 
 TEST(Summary, HasTheKeysOfTheContract) {
   solver::RunSummary summary;
-  summary.model = {"a sheet", "a spiral"};
+  summary.plan.parts = {{.part = "sheet", .active = true, .what = "flat", .why = "always", .view_bytes = 8},
+                        {.part = "waves", .active = true, .what = "one", .why = "always"},
+                        {.part = "mechanics", .why = "rigid"}};
   summary.steps = 100;
   summary.wall_s = 2;
   summary.cell_steps_per_s = 5e8;
@@ -181,15 +198,19 @@ TEST(Summary, HasTheKeysOfTheContract) {
   summary.observables.area = {0.8, 1.1};
   summary.observables.shortening = {0.25, 33};
   const auto json = summary_json(summary, true, std::nullopt);
-  EXPECT_EQ(json["model"].size(), 2u);
+  EXPECT_EQ(json["model"], (nlohmann::ordered_json{"sheet: flat", "waves: one"}));
+  EXPECT_EQ(json["plan"][0],
+            (nlohmann::ordered_json{
+                {"part", "sheet"}, {"active", true}, {"what", "flat"}, {"why", "always"}, {"bytes", 8}}));
+  EXPECT_EQ(json["plan"][2]["why"], "rigid");
   EXPECT_EQ(json["steps"], 100);
   for (const char* phase : {"excitation", "transfer", "mechanics", "observe", "output"}) {
     EXPECT_TRUE(json["phases"][phase].is_number()) << phase;
   }
   EXPECT_EQ(json["wall_s"], 2);
   EXPECT_EQ(json["throughput"]["cell_steps_per_s"], 5e8);
-  for (const char* key :
-       {"solves", "newton_iterations", "newton_max", "factorizations", "shifts", "not_elliptic", "min_J"}) {
+  for (const char* key : {"solves", "left_out", "newton_iterations", "newton_max", "factorizations", "shifts",
+                          "not_elliptic", "min_J"}) {
     EXPECT_TRUE(json["mechanics"][key].is_number()) << key;
   }
   EXPECT_EQ(json["observables"]["period"], (nlohmann::ordered_json{{"mean", 26.5}, {"sd", 0.25}, {"n", 7}}));

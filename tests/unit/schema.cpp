@@ -82,6 +82,7 @@ TEST(schema, an_empty_file_is_a_default_scene) {
   EXPECT_FALSE(scene.mechanics.has_value());
   // model.md's default probes: (q, q), (q, m-q), (m-q, q), (m-q, m-q) with m = 250, q = 62.
   defaults.output.probes = {{62, 62}, {62, 188}, {188, 62}, {188, 188}};
+  defaults.output.tension = false;  // nothing asks for Ta
   EXPECT_EQ(apps::effective_configuration(scene), apps::effective_configuration(defaults));
 }
 

@@ -1,0 +1,38 @@
+// What a scene requires: which parts of the model run, as which variant, why the others do not, and the
+// memory of each. Made from the same predicates (solver/scene.hpp) that the run decides by.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/scene.hpp"
+
+namespace myowave::solver {
+
+struct PlannedPart {
+  std::string part{};  // "active tension"
+  bool active = false;
+  std::string what{};             // the equation, kernel variant or file; empty where it is not active
+  std::string why{};              // it is there, or why it is not
+  std::uint64_t view_bytes = 0;   // in Kokkos Views, as long as the run lasts
+  std::uint64_t other_bytes = 0;  // on the host: tables, the factor (estimated), copies of the state
+
+  std::uint64_t bytes() const { return view_bytes + other_bytes; }
+};
+
+struct Plan {
+  std::vector<PlannedPart> parts;
+  double state_bytes_per_node = 0;        // V, r and Ta, old and new
+  double coefficient_bytes_per_node = 0;  // of the diffusion term, and what refreshes them
+
+  std::uint64_t bytes() const;
+  // "part: what" of every active part.
+  std::vector<std::string> in_words() const;
+};
+
+// 64-bit arithmetic, nothing is allocated: sheets beyond any memory have a plan too.
+Plan make_plan(const Scene&);
+inline std::uint64_t memory_bytes(const Scene& scene) { return make_plan(scene).bytes(); }
+
+}  // namespace myowave::solver
