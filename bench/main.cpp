@@ -109,6 +109,7 @@ int main(int argc, char** argv) {
   bench::register_observe(suite);
   bench::register_solve(suite);
   bench::register_coupled(suite);
+  bench::register_pruning(suite);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return bench::any_failed() ? 1 : 0;

@@ -40,6 +40,7 @@ void register_transfer(const Suite&);
 void register_observe(const Suite&);
 void register_solve(const Suite&);
 void register_coupled(const Suite&);
+void register_pruning(const Suite&);
 
 template <class Real>
 constexpr const char* precision_name = sizeof(Real) == sizeof(double) ? "float64" : "float32";
