@@ -374,8 +374,7 @@ std::optional<std::string> Electromechanics<ExecutionSpace, Real>::find_fault(do
         },
         form_);
   };
-  return find_state_fault(space_, WatchedState<View>{state_, t}, clean_.with_margin(scene_.excitation),
-                          growing_noise);
+  return find_state_fault(space_, WatchedState<View>{state_, t}, clean_.with_margin(scene_), growing_noise);
 }
 
 template <class ExecutionSpace, class Real>

@@ -24,6 +24,7 @@ enum class ParameterOutcome {
   right,    // within `largest_error` of the reference
   refused,  // InputError
   stopped,  // NumericalFailure
+  warned,   // finished, is not right, and has said so
   wrong,    // finished, and is not right
 };
 
@@ -31,7 +32,7 @@ struct ParameterResult {
   ParameterOutcome outcome = ParameterOutcome::wrong;
   double error = 0;      // of V and r at the end, 2-norm over the reference's
   double largest_V = 0;  // at the end
-  std::string reason;    // of a refusal or a stop
+  std::string reason;    // of a refusal, a stop or a warning
 };
 
 // A wave front of the paper's step and spacing is 0.03 off after 10 t.u.

@@ -87,10 +87,12 @@ int needed_substeps(double dt, double stable_dt) {
   return static_cast<int>(std::min<double>(most_substeps + 1, std::ceil(dt / (safety * stable_dt))));
 }
 
-CleanRange CleanRange::with_margin(const ExcitationSettings& e) const {
+CleanRange CleanRange::with_margin(const Scene& scene) const {
+  const auto& e = scene.excitation;
   const auto beyond = [](double bound) { return margin * std::max(1.0, std::abs(bound)); };
+  const double undershoot = metric_form(scene) == MetricForm::none ? 0 : undershoot_of_sheared_front;
   const double pole = e.mu1 > 0 && min_V > -e.mu2 ? -e.mu2 : -infinity;
-  return {std::max(min_V - beyond(min_V), pole), max_V + beyond(max_V), min_r - beyond(min_r)};
+  return {std::max(min_V - beyond(min_V) - undershoot, pole), max_V + beyond(max_V), min_r - beyond(min_r)};
 }
 
 CleanRange clean_range(const Scene& scene, const InitialState& state) {
@@ -145,6 +147,14 @@ void require_clean_start(const Scene& scene, const InitialState& state) {
 
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings;
+  // Below, an error of dt becomes a tenth of V at 0.9 (`myowave stability --map parameters`).
+  const double fall = scene.time.dt * reaction_rate(scene.excitation) / scene.excitation.C_m;
+  if (fall > 1)
+    warnings.push_back(
+        fmt::format("time.dt = {} is stable but too long to follow the reaction: k max(a, 1 - a) dt / C_m = "
+                    "{:.3g}, and above 1 "
+                    "a step goes past the state that V relaxes to. Set time.dt to {:.3g} or less",
+                    scene.time.dt, fall, 0.5 * scene.time.dt / fall));
   constexpr double first_k_Ta = 60;  // kPa; V reaches 1
   if (scene.mechanics && scene.mechanics->contraction && scene.tension.k_Ta > first_k_Ta)
     warnings.push_back(fmt::format(

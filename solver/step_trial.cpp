@@ -33,6 +33,8 @@ class Trial {
   explicit Trial(const StepTrial& trial)
       : grid_{trial.grid.rows, trial.grid.columns, trial.grid.dx},
         form_(select_form<Space, Real>(trial.form, grid_, elements(trial), trial.cells_per_element)) {
+    like_.metric = trial.form;
+    if (trial.form != MetricForm::none) like_.mechanics.emplace();
     const Nodes<Space::memory_space> nodes("myowave::solver::trial_nodes", trial.nodes.size() / 2);
     const auto host = Kokkos::create_mirror_view(nodes);
     std::ranges::copy(trial.nodes, host.data());
@@ -50,8 +52,7 @@ class Trial {
   StepReport run(const InitialState& initial, double dt, double duration) {
     state_ = {field("V", &initial.V), field("r", &initial.r), {}};
     spare_ = {field("V_next", nullptr), field("r_next", nullptr), {}};
-    const Scene defaults;
-    const CleanRange range = clean_range(defaults, initial).with_margin(defaults.excitation);
+    const CleanRange range = clean_range(like_, initial).with_margin(like_);
     StepReport report;
     const int per_look = std::max(1, static_cast<int>(std::lround(1 / dt)));
     const int looks = static_cast<int>(std::ceil(duration / (per_look * dt)));
@@ -123,6 +124,7 @@ class Trial {
   Space space_;
   tissue::Grid grid_;
   typename ModelForms<Space, Real>::Any form_;
+  Scene like_;  // a scene with this diffusion
   ModelWithoutTension<Real> model_ = make_cell_model();
   transfer::DeformationBounds bounds_{2, 1};
   tissue::ExcitationFields<View> state_, spare_;

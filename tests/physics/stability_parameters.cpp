@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/parameter_maps.hpp"
+#include "solver/stability.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -54,6 +55,15 @@ TEST(ParameterMap, FastCurrentsPastTheBoundAreRefusedWithIt) {
     EXPECT_EQ(result.outcome, ParameterOutcome::refused) << "k = " << k;
     EXPECT_NE(result.reason.find("bound"), std::string::npos);
   }
+}
+
+TEST(ParameterMap, AStableStepThatCannotFollowTheReactionWarns) {
+  ParameterCase one = front();
+  one.scene.excitation.k = 70;
+  const auto result = run_case(one);
+  EXPECT_EQ(result.outcome, ParameterOutcome::warned) << result.error;
+  EXPECT_NE(result.reason.find("too long to follow the reaction"), std::string::npos) << result.reason;
+  EXPECT_TRUE(warnings_of({}).empty());
 }
 
 TEST(ParameterMap, NegativeRecoveryAboveTheThresholdDiesOutAndBelowRunsAway) {

@@ -65,7 +65,7 @@ class RandomScene {
     maybe("excitation", "b", 0.1, -0.2, 1);
     maybe("excitation", "eps", 0.01, 0, 0.1);
     maybe("excitation", "mu1", 0.12, 0, 0.3);
-    maybe("excitation", "mu2", 0.3, 0.05, 2);
+    mu2_ = maybe("excitation", "mu2", 0.3, 0.05, 2);
     C_m_ = maybe("excitation", "C_m", 1, 0.3, 3);
     D_ = maybe("excitation", "D", 1, 0, 3);
   }
@@ -150,7 +150,8 @@ class RandomScene {
     } else if (draw_.chance(0.3)) {
       scene_.set("initial", "type", "'rest'");
     }
-    if (maybe("initial", "noise", 0, 0, 0.2, 0.3) > 0)
+    // no node of some thousand at V <= -mu2, which is refused
+    if (maybe("initial", "noise", 0, 0, std::min(0.2, mu2_ / 6), 0.3) > 0)
       scene_.set("initial", "seed", fmt::format("{}", draw_.integer(0, 1 << 30)));
   }
 
@@ -234,7 +235,7 @@ class RandomScene {
   SceneText scene_;
   int rows_ = 0, columns_ = 0, steps_ = 0;
   bool deforms_ = false, contracts_ = false, own_eps0_ = false;
-  double a_ = 0, k_ = 0, C_m_ = 0, D_ = 0, dx_ = 0, dt_ = 0;
+  double a_ = 0, k_ = 0, mu2_ = 0, C_m_ = 0, D_ = 0, dx_ = 0, dt_ = 0;
   std::string law_;
 };
 
