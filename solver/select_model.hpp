@@ -64,7 +64,7 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
 
 // From so many nodes on, several steps in one launch are faster on a host with the metric from the element
 // nodes, to rounding the same, than with its arrays, which no cache holds then (bench/README.md).
-inline constexpr std::int64_t nodes_of_large_sheet = 2'000'000;
+inline constexpr std::int64_t nodes_of_large_sheet = 5'000'000;
 
 template <class ExecutionSpace>
 constexpr bool takes_metric_from_nodes(std::int64_t rows, std::int64_t columns) {
