@@ -247,7 +247,7 @@ class SumOfFrames final : public OutputSink {
     const elastic::ElementGrid elements{frame.element_rows, frame.element_columns, cells_ * dx_};
     const Nodes<Kokkos::HostSpace> nodes("myowave::solver::map_nodes", elements.nodes());
     std::ranges::copy(frame.nodes, nodes.data());
-    const auto V = [&](int i, int j) { return frame.V[static_cast<std::size_t>(i * frame.columns + j)]; };
+    const auto V = [&](int i, int j) { return frame.V[static_cast<std::size_t>(i) * frame.columns + j]; };
     double total = 0;
     for (int i = 0; i + 1 < frame.rows; ++i)
       for (int j = 0; j + 1 < frame.columns; ++j) {
@@ -285,7 +285,7 @@ ConservedSum diffuse_on_held_sheet(Precision precision, int n, std::int64_t step
   InitialState state = make_initial_state(scene);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const auto node = static_cast<std::size_t>(i * n + j);
+      const auto node = static_cast<std::size_t>(i) * n + j;
       state.V[node] = (i * 7 + j * 3) % 11 / 11.0;
       state.Ta[node] = i + 2 * j < n ? scene.tension.k_Ta : 0;
     }

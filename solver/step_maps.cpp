@@ -144,7 +144,7 @@ const char* const what_is_run =
 
 }  // namespace
 
-MapTable map_of_steps(std::string name, std::string caption, MapColumn deformation,
+MapTable map_of_steps(std::string name, const std::string& caption, MapColumn deformation,
                       const std::vector<DeformedSheet>& sheets, const MapProgress& progress) {
   flush_denormals();
   MapTable table{std::move(name), caption + what_is_run, {}, {"right", "wrong", "blown up"}, {}, {}, {}};

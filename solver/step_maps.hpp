@@ -18,7 +18,7 @@ struct DeformedSheet {
 
 // Tries dt on each sheet from 0.4 of its bound to 1.7 times it, and halves the steps between two that end
 // differently down to 0.5 % of the bound.
-MapTable map_of_steps(std::string name, std::string caption, MapColumn deformation,
+MapTable map_of_steps(std::string name, const std::string& caption, MapColumn deformation,
                       const std::vector<DeformedSheet>&, const MapProgress&);
 
 MapTable make_dt_rigid(const MapProgress&);     // against dx
