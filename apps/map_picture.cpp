@@ -18,7 +18,7 @@ using solver::MapTable;
 // Layout, pixels.
 constexpr int plot_width = 300, plot_height = 240;
 constexpr int left = 66, right = 18, top = 34, bottom = 50;  // around a plot
-constexpr int legend_height = 36;
+constexpr int legend_line = 24, under_legend = 12;
 constexpr int panels_in_a_row = 2;
 
 constexpr std::array<std::string_view, 3> line_dashes{"none", "7 4", "2 3"};
@@ -236,12 +236,25 @@ std::string draw_panel(const MapTable& table, const Panel& panel, const Axis& x,
   return svg + draw_axes(table, x, y);
 }
 
-std::string draw_legend(const MapTable& table) {
+struct Legend {
   std::string svg;
+  int height = legend_line + under_legend;
+};
+
+// In as many lines as a picture of that width needs.
+Legend draw_legend(const MapTable& table, int width) {
+  Legend legend;
   double at = left;
   const auto entry = [&](const std::string& mark, const std::string& text) {
-    svg += fmt::format("<g transform=\"translate({:.1f} 12)\">{}</g>\n", at, mark) + label(at + 26, 23, text);
-    at += 26 + 7.2 * static_cast<double>(text.size()) + 18;
+    const double length = 26 + 7.2 * static_cast<double>(text.size());
+    if (at > left && at + length > width) {
+      at = left;
+      legend.height += legend_line;
+    }
+    const int y = legend.height - legend_line;
+    legend.svg += fmt::format("<g transform=\"translate({:.1f} {})\">{}</g>\n", at, y, mark) +
+                  label(at + 26, y + 11, text);
+    at += length + 18;
   };
   for (std::size_t outcome = 0; outcome < table.outcomes.size(); ++outcome)
     entry(fmt::format("<rect width=\"16\" height=\"13\" fill=\"{}\" stroke=\"#222\"/>",
@@ -249,7 +262,7 @@ std::string draw_legend(const MapTable& table) {
           table.outcomes[outcome]);
   for (std::size_t n = 0; n < table.view->lines.size(); ++n)
     entry(fmt::format("<path d=\"M-4 7h24\" {}/>", line_style(n)), table.view->lines[n].label);
-  return svg;
+  return legend;
 }
 
 }  // namespace
@@ -261,18 +274,19 @@ std::string map_svg(const MapTable& table) {
   const int down = (static_cast<int>(panels.size()) + across - 1) / across;
   constexpr int panel_width = left + plot_width + right, panel_height = top + plot_height + bottom;
   const int width = std::max(across * panel_width, 2 * panel_width);
-  const int height = legend_height + down * panel_height;
+  const Legend legend = draw_legend(table, width);
+  const int height = legend.height + down * panel_height;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
       "<clipPath id=\"plot\"><rect width=\"{4}\" height=\"{5}\"/></clipPath>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
       width, height, escaped(table.name), escaped(table.caption), plot_width, plot_height);
-  svg += draw_legend(table);
+  svg += legend.svg;
   for (int n = 0; n < static_cast<int>(panels.size()); ++n) {
     const auto& [title, panel] = panels[static_cast<std::size_t>(n)];
     svg += fmt::format("<g transform=\"translate({} {})\">\n", left + n % across * panel_width,
-                       legend_height + top + n / across * panel_height);
+                       legend.height + top + n / across * panel_height);
     svg += label(0.5 * plot_width, -10, title, "text-anchor=\"middle\" font-weight=\"bold\"");
     svg += draw_panel(table, panel, x, y) + "</g>\n";
   }
