@@ -155,6 +155,15 @@ std::vector<std::string> warnings_of(const Scene& scene) {
                     "{:.3g}, and above 1 "
                     "a step goes past the state that V relaxes to. Set time.dt to {:.3g} or less",
                     scene.time.dt, fall, 0.5 * scene.time.dt / fall));
+  const double unit_roundoff = 0.5 * (scene.precision == Precision::float32
+                                          ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                          : std::numeric_limits<double>::epsilon());
+  if (scene.excitation.eps > 0 && scene.time.dt * scene.excitation.eps < unit_roundoff)
+    warnings.push_back(fmt::format(
+        "time.dt = {} is too short for the precision: at rest a step takes eps dt = {:.3g} of r away, which "
+        "is lost "
+        "to rounding. Set time.dt to {:.3g} or more",
+        scene.time.dt, scene.time.dt * scene.excitation.eps, 10 * unit_roundoff / scene.excitation.eps));
   constexpr double first_k_Ta = 60;  // kPa; V reaches 1
   if (scene.mechanics && scene.mechanics->contraction && scene.tension.k_Ta > first_k_Ta)
     warnings.push_back(fmt::format(

@@ -66,6 +66,15 @@ TEST(ParameterMap, AStableStepThatCannotFollowTheReactionWarns) {
   EXPECT_TRUE(warnings_of({}).empty());
 }
 
+TEST(ParameterMap, AStepThatRoundingLosesWarns) {
+  Scene scene;
+  scene.time.dt = 1e-6;
+  EXPECT_TRUE(warnings_of(scene).empty()) << "float64";
+  scene.precision = Precision::float32;
+  ASSERT_EQ(warnings_of(scene).size(), 1U);
+  EXPECT_NE(warnings_of(scene)[0].find("too short for the precision"), std::string::npos);
+}
+
 TEST(ParameterMap, NegativeRecoveryAboveTheThresholdDiesOutAndBelowRunsAway) {
   ParameterCase one = front();
   one.scene.grid = {3, 3, 0.6};
