@@ -194,7 +194,7 @@ void stability(const StabilityRequest& request) {
 
 std::string map_names() {
   std::string text = "Maps:\n";
-  for (const auto& map : solver::stability_maps()) text += fmt::format("  {:<14}{}\n", map.name, map.doc);
+  for (const auto& map : solver::stability_maps()) text += fmt::format("  {:<20}{}\n", map.name, map.doc);
   return text;
 }
 
