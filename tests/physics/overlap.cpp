@@ -28,22 +28,9 @@ solver::Scene overlapping(int steps) {
   return scene;
 }
 
-struct Result {
-  solver::InitialState state;
-  test::RecordingSink sink;
-  solver::RunSummary summary;
-};
-
-Result run(const solver::Scene& scene) {
-  Result result;
-  result.sink.keep_fields = true;
-  result.state = solver::run(scene, solver::make_initial_state(scene), result.sink, result.summary);
-  return result;
-}
-
 TEST(Overlap, IsTheMetricOfOneIntervalBeforeToTheBit) {
   const solver::Scene scene = overlapping(6 * interval + interval / 2);
-  const Result result = run(scene);
+  const test::RecordedRun result = test::recorded_run(scene);
   const PlainSheet plain(scene, solver::make_initial_state(scene));
   EXPECT_EQ(result.state.V, test::to_values(plain.V));
   EXPECT_EQ(result.state.r, test::to_values(plain.r));
@@ -53,12 +40,12 @@ TEST(Overlap, IsTheMetricOfOneIntervalBeforeToTheBit) {
 
   solver::Scene held = scene;
   held.mechanics->overlap = false;
-  EXPECT_NE(run(held).state.V, result.state.V);
+  EXPECT_NE(test::recorded_run(held).state.V, result.state.V);
 }
 
 TEST(Overlap, TheSameRunTwiceIsTheSameToTheBit) {
   const solver::Scene scene = overlapping(5 * interval);
-  const Result one = run(scene), two = run(scene);
+  const test::RecordedRun one = test::recorded_run(scene), two = test::recorded_run(scene);
   EXPECT_EQ(one.state.V, two.state.V);
   EXPECT_EQ(one.sink.nodes, two.sink.nodes);
   EXPECT_EQ(one.summary.mechanics.newton_iterations, two.summary.mechanics.newton_iterations);
@@ -68,9 +55,9 @@ TEST(Overlap, TheSameRunTwiceIsTheSameToTheBit) {
 TEST(Overlap, EverySolveThatIsDueIsDone) {
   for (const int steps : {0, 1, interval, 3 * interval, 3 * interval + 1}) {
     solver::Scene scene = overlapping(steps);
-    const Result overlapped = run(scene);
+    const test::RecordedRun overlapped = test::recorded_run(scene);
     scene.mechanics->overlap = false;
-    const Result held = run(scene);
+    const test::RecordedRun held = test::recorded_run(scene);
     for (const auto& mechanics : {overlapped.summary.mechanics, held.summary.mechanics}) {
       EXPECT_EQ(mechanics.solves, steps / interval) << steps;
       EXPECT_EQ(mechanics.left_out, 1) << steps;
@@ -83,9 +70,9 @@ TEST(Overlap, EverySolveThatIsDueIsDone) {
 TEST(Overlap, AreasComeOneIntervalLater) {
   solver::Scene scene = overlapping(5 * interval);
   scene.metric = solver::MetricForm::none;
-  const Result overlapped = run(scene);
+  const test::RecordedRun overlapped = test::recorded_run(scene);
   scene.mechanics->overlap = false;
-  const Result held = run(scene);
+  const test::RecordedRun held = test::recorded_run(scene);
   ASSERT_EQ(overlapped.sink.areas.size(), 6U);
   EXPECT_EQ(overlapped.sink.areas[0].total, held.sink.areas[0].total);
   for (std::size_t n = 1; n < 6; ++n) {
@@ -119,7 +106,7 @@ TEST(Overlap, AFailureNamesTheTimeOfItsTensionAndSurfacesAtTheNextSolveOrTheEnd)
 TEST(Overlap, AFailureOfTheStepsWaitsForTheSolve) {
   solver::Scene scene = overlapping(10 * interval);
   scene.stimuli.push_back({.start = 1.7, .duration = 1, .amplitude = 200});
-  EXPECT_THROW(run(scene), solver::NumericalFailure);
+  EXPECT_THROW(test::recorded_run(scene), solver::NumericalFailure);
 }
 
 }  // namespace

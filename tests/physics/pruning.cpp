@@ -52,21 +52,6 @@ solver::InitialState tense_front(const Scene& scene) {
   return state;
 }
 
-struct Result {
-  solver::InitialState state;
-  test::RecordingSink sink;
-  solver::RunSummary summary;
-};
-
-Result run(const Scene& scene, const solver::InitialState& initial) {
-  Result result;
-  result.sink.keep_fields = true;
-  result.state = solver::run(scene, initial, result.sink, result.summary);
-  return result;
-}
-
-Result run(const Scene& scene) { return run(scene, solver::make_initial_state(scene)); }
-
 // Labels of what Kokkos allocates and launches, and the most bytes of the project's Views at once.
 struct Recording {
   std::vector<std::string> allocations, kernels;
@@ -118,10 +103,10 @@ TEST(Pruning, WithoutAnOutputOfTensionARigidSheetHasNone) {
   for (const auto precision : {solver::Precision::float64, solver::Precision::float32}) {
     scene.precision = precision;
     scene.output.tension = true;
-    const Result full = run(scene);
+    const test::RecordedRun full = test::recorded_run(scene);
     scene.output.tension = false;
-    Result pruned;
-    const Recording seen = record([&] { pruned = run(scene); });
+    test::RecordedRun pruned;
+    const Recording seen = record([&] { pruned = test::recorded_run(scene); });
     EXPECT_EQ(pruned.state.V, full.state.V);
     EXPECT_EQ(pruned.state.r, full.state.r);
     EXPECT_EQ(pruned.summary.observables.tips.mean, full.summary.observables.tips.mean);
@@ -142,9 +127,9 @@ TEST(Pruning, WithoutAnOutputOfTensionARigidSheetHasNone) {
 TEST(Pruning, AContractingSheetHasTensionAsDoesWhatComesBeforeIt) {
   Scene scene = deforming_front();
   scene.initial.preconditions = {{1, false, scene.excitation, scene.tension}};
-  const Result shown = run(scene);
+  const test::RecordedRun shown = test::recorded_run(scene);
   scene.output.tension = false;
-  const Result pruned = run(scene);
+  const test::RecordedRun pruned = test::recorded_run(scene);
   EXPECT_EQ(pruned.state.V, shown.state.V);
   EXPECT_EQ(pruned.state.Ta, shown.state.Ta);
   EXPECT_TRUE(has_tension(solver::stages_of(scene).front()));
@@ -169,8 +154,8 @@ TEST_P(StillSheet, IsNotSolvedAgainAndIsTheSameToTheBit) {
   still.change(scene);
   const auto initial = tense_front(scene);
   const PlainSheet full(scene, initial);
-  Result pruned;
-  const Recording seen = record([&] { pruned = run(scene, initial); });
+  test::RecordedRun pruned;
+  const Recording seen = record([&] { pruned = test::recorded_run(scene, initial); });
   EXPECT_EQ(pruned.state.V, to_values(full.V));
   EXPECT_EQ(pruned.state.r, to_values(full.r));
   EXPECT_EQ(pruned.state.Ta, to_values(full.Ta));
@@ -207,7 +192,7 @@ TEST(Pruning, SolvesBeginWhenTheTensionMoves) {
   scene.initial.type = solver::InitialSettings::Type::rest;
   constexpr int still = 5;
   scene.stimuli.push_back({.start = (still * interval - 1) * scene.time.dt, .amplitude = 0.5});
-  const Result result = run(scene);
+  const test::RecordedRun result = test::recorded_run(scene);
   EXPECT_EQ(result.summary.mechanics.left_out, still + 1);  // at step 100 V has risen, Ta not yet
   EXPECT_EQ(result.summary.mechanics.solves, intervals - still);
   EXPECT_EQ(result.sink.areas.front().total, 1);
@@ -217,7 +202,7 @@ TEST(Pruning, SolvesBeginWhenTheTensionMoves) {
 TEST(Pruning, NothingIsStoredOrComputedThatNobodyAsksFor) {
   Scene scene = front();
   scene.output.probes.clear();
-  const Recording rigid = record([&] { run(scene); });
+  const Recording rigid = record([&] { test::recorded_run(scene); });
   for (const auto* labels : {&rigid.allocations, &rigid.kernels}) {
     EXPECT_THAT(*labels, Not(Contains(StartsWith("myowave::elastic"))));
     EXPECT_THAT(*labels, Not(Contains(StartsWith("myowave::transfer"))));
@@ -227,7 +212,7 @@ TEST(Pruning, NothingIsStoredOrComputedThatNobodyAsksFor) {
   }
   Scene without_feedback = deforming_front();
   without_feedback.metric = MetricForm::none;
-  const Recording deforming = record([&] { run(without_feedback); });
+  const Recording deforming = record([&] { test::recorded_run(without_feedback); });
   EXPECT_THAT(deforming.allocations, Not(Contains(HasSubstr("metric"))));
   EXPECT_THAT(deforming.allocations, Not(Contains(StartsWith("myowave::transfer"))));
   EXPECT_EQ(launches(deforming, "myowave::transfer::"),
@@ -240,7 +225,7 @@ TEST(Pruning, RoomForTipsIsMadeWhenTheyAreThere) {
   scene.time.t_end = 0;
   auto state = solver::make_initial_state(scene);
   state.V = test::random_field(81 * 81, 0, 1, 5);
-  const Result result = run(scene, state);
+  const test::RecordedRun result = test::recorded_run(scene, state);
   const auto& tips = result.sink.tip_samples.front().tips;
   EXPECT_GT(tips.size(), 300U);
   EXPECT_EQ(result.summary.observables.tips.mean, static_cast<double>(tips.size()));
@@ -263,7 +248,7 @@ TEST(Plan, CountsTheBytesThatKokkosAllocates) {
       scene.initial = {};
       scene.initial.type = solver::InitialSettings::Type::broken_front;
       scene.time.t_end = 100 * scene.time.dt;
-      const Recording seen = record([&] { run(scene); });
+      const Recording seen = record([&] { test::recorded_run(scene); });
       const solver::Plan plan = solver::make_plan(scene);
       double views = 0;
       for (const auto& one : plan.parts) views += static_cast<double>(one.view_bytes);

@@ -12,19 +12,6 @@ namespace {
 
 using test::RecordingSink;
 
-struct Result {
-  solver::InitialState state;
-  RecordingSink sink;
-  solver::RunSummary summary;
-};
-
-Result run(const solver::Scene& scene) {
-  Result result;
-  result.sink.keep_fields = true;
-  result.state = solver::run(scene, solver::make_initial_state(scene), result.sink, result.summary);
-  return result;
-}
-
 // A front that starts at the left end of a strip.
 solver::Scene strip(double t_end) {
   solver::Scene scene;
@@ -50,7 +37,8 @@ TEST(Quiescent, WithoutAToleranceARunHasTheBitsOfTheWholeSheet) {
       solver::Scene scene = strip(12);
       scene.precision = precision;
       if (deforms) scene.mechanics.emplace().interval = 40;
-      const Result part = run(scene), whole = run(step_by_step(scene));
+      const test::RecordedRun part = test::recorded_run(scene),
+                              whole = test::recorded_run(step_by_step(scene));
       EXPECT_EQ(part.state.V, whole.state.V);
       EXPECT_EQ(part.state.r, whole.state.r);
       EXPECT_EQ(part.state.Ta, whole.state.Ta);
@@ -65,11 +53,11 @@ TEST(Quiescent, WithoutAToleranceARunHasTheBitsOfTheWholeSheet) {
 // What is cut off ahead of a front hardly reaches it, for the front is pushed from behind.
 TEST(Quiescent, AToleranceChangesAFrontByLess) {
   const solver::Scene exact = strip(30);
-  const auto V = run(exact).state.V;
+  const auto V = test::recorded_run(exact).state.V;
   const auto error = [&](double tolerance) {
     solver::Scene scene = exact;
     scene.quiescent = tolerance;
-    const auto other = run(scene).state.V;
+    const auto other = test::recorded_run(scene).state.V;
     double largest = 0;
     for (std::size_t k = 0; k < V.size(); ++k) largest = std::max(largest, std::abs(other[k] - V[k]));
     return largest;

@@ -31,25 +31,10 @@ Scene spiral(int n) {
   return scene;
 }
 
-struct Result {
-  InitialState state;
-  RecordingSink sink;
-  solver::RunSummary summary;
-};
-
-Result run(const Scene& scene, const InitialState& initial) {
-  Result result;
-  result.sink.keep_fields = true;
-  result.state = solver::run(scene, initial, result.sink, result.summary);
-  return result;
-}
-
-Result run(const Scene& scene) { return run(scene, solver::make_initial_state(scene)); }
-
 template <class Failure>
 std::string message_of(const Scene& scene, const InitialState& initial) {
   try {
-    run(scene, initial);
+    test::recorded_run(scene, initial);
   } catch (const Failure& failure) {
     return failure.what();
   }
@@ -73,7 +58,7 @@ TEST(RunInvariants, TheSameRunTwiceIsTheSameToTheBit) {
   scene.mechanics->interval = 25;
   for (const auto precision : {solver::Precision::float64, solver::Precision::float32}) {
     scene.precision = precision;
-    const Result first = run(scene), second = run(scene);
+    const test::RecordedRun first = test::recorded_run(scene), second = test::recorded_run(scene);
     EXPECT_EQ(first.state.V, second.state.V);
     EXPECT_EQ(first.state.r, second.state.r);
     EXPECT_EQ(first.state.Ta, second.state.Ta);
@@ -87,12 +72,12 @@ TEST(RunInvariants, ObservationDoesNotChangeTheRun) {
   Scene scene = spiral(61);
   scene.time.t_end = 10;
   scene.mechanics.emplace();
-  const Result seldom = run(scene);
+  const test::RecordedRun seldom = test::recorded_run(scene);
   scene.output.every = 0.14;
   scene.output.tips_every = 0.06;
   scene.output.probes_every = 0.02;
   scene.output.probes = {{3, 4}, {30, 30}};
-  const Result often = run(scene);
+  const test::RecordedRun often = test::recorded_run(scene);
   EXPECT_EQ(seldom.state.V, often.state.V);
   EXPECT_EQ(seldom.sink.nodes, often.sink.nodes);
   EXPECT_EQ(often.sink.probe_samples.size(), 501U);
@@ -106,9 +91,9 @@ TEST(RunInvariants, BothSourcesOfTheMetricOfALargeSheetAgree) {
   scene.time.t_end = 0.4;
   scene.mechanics.emplace();
   scene.mechanics->interval = 10;
-  const Result from_nodes = run(scene);
+  const test::RecordedRun from_nodes = test::recorded_run(scene);
   scene.stimuli.push_back({.duration = 1, .amplitude = 0});
-  const Result loaded = run(scene);
+  const test::RecordedRun loaded = test::recorded_run(scene);
   EXPECT_TRUE(all_close(from_nodes.state.V, loaded.state.V, 2241, {.absolute = 1e-12}));
   EXPECT_TRUE(all_close(from_nodes.state.r, loaded.state.r, 2241, {.absolute = 1e-12}));
 }
@@ -119,9 +104,9 @@ TEST(RunInvariants, Float32FollowsFloat64) {
   for (const bool deforms : {false, true}) {
     if (deforms) scene.mechanics.emplace();
     scene.precision = solver::Precision::float64;
-    const Result exact = run(scene);
+    const test::RecordedRun exact = test::recorded_run(scene);
     scene.precision = solver::Precision::float32;
-    const Result rounded = run(scene);
+    const test::RecordedRun rounded = test::recorded_run(scene);
     EXPECT_TRUE(all_close(rounded.state.V, exact.state.V, 61, {.absolute = 4e-6}));
     EXPECT_TRUE(all_close(rounded.state.r, exact.state.r, 61, {.absolute = 8e-6}));
     // a node whose V crosses the tension's threshold a step apart is off by 1 - 0.1 times Ta dt
@@ -137,7 +122,7 @@ TEST(RunInvariants, StepPastTheStabilityBoundIsRefused) {
   EXPECT_NEAR(solver::largest_stable_dt(scene, 2), bound, 1e-15);
   scene.time.dt = bound * (1 - 1e-9);
   scene.time.t_end = 20 * bound;
-  EXPECT_EQ(run(scene).summary.steps, 20);
+  EXPECT_EQ(test::recorded_run(scene).summary.steps, 20);
   scene.time.dt = bound * (1 + 1e-9);
   const auto message = message_of<solver::InputError>(scene, solver::make_initial_state(scene));
   EXPECT_THAT(message, HasSubstr("time.dt"));
@@ -145,7 +130,7 @@ TEST(RunInvariants, StepPastTheStabilityBoundIsRefused) {
   // what it proposes does
   scene.time.dt = number_after(message, "Set time.dt to ");
   EXPECT_GT(scene.time.dt, 0.95 * bound);
-  EXPECT_EQ(run(scene).summary.steps, 20);
+  EXPECT_EQ(test::recorded_run(scene).summary.steps, 20);
 }
 
 // C_m and D scale the bound as they scale the equation.
@@ -169,9 +154,9 @@ TEST(RunInvariants, WithoutTensionVAndRAreTheSame) {
   for (const bool deforms : {false, true}) {
     if (deforms) scene.mechanics.emplace().contraction = false;
     scene.tension.law = "delayed";
-    const Result with = run(scene);
+    const test::RecordedRun with = test::recorded_run(scene);
     scene.tension.law = "none";
-    const Result without = run(scene);
+    const test::RecordedRun without = test::recorded_run(scene);
     EXPECT_EQ(without.state.V, with.state.V);
     EXPECT_EQ(without.state.r, with.state.r);
     EXPECT_EQ(without.state.Ta, std::vector<double>(with.state.Ta.size()));
@@ -293,7 +278,7 @@ TEST(RunInvariants, PreconditionsComeBeforeTimeZero) {
 
   Scene whole = scene;
   whole.initial.preconditions = {faster, weaker};
-  const Result actual = run(whole);
+  const test::RecordedRun actual = test::recorded_run(whole);
 
   const auto stage = [&](const solver::Precondition& p) {
     Scene s = scene;
@@ -304,9 +289,9 @@ TEST(RunInvariants, PreconditionsComeBeforeTimeZero) {
     s.tension = p.tension;
     return s;
   };
-  const InitialState first = run(stage(faster), solver::make_initial_state(scene)).state;
-  const InitialState second = run(stage(weaker), first).state;
-  const Result expected = run(scene, second);
+  const InitialState first = test::recorded_run(stage(faster), solver::make_initial_state(scene)).state;
+  const InitialState second = test::recorded_run(stage(weaker), first).state;
+  const test::RecordedRun expected = test::recorded_run(scene, second);
   EXPECT_EQ(actual.state.V, expected.state.V);
   EXPECT_EQ(actual.state.Ta, expected.state.Ta);
   EXPECT_EQ(actual.sink.nodes, expected.sink.nodes);
@@ -326,7 +311,7 @@ TEST(RunInvariants, ContractingPreconditionNeedsMechanics) {
   scene.time.t_end = 1;
   scene.mechanics.emplace();
   scene.mechanics->contraction = false;
-  EXPECT_NO_THROW(run(scene));
+  EXPECT_NO_THROW(test::recorded_run(scene));
 }
 
 // The sheet's own symmetries: a centred disc knows none of the directions. The mesh is held at its
@@ -348,7 +333,7 @@ TEST(RunInvariants, CentredStimulusKeepsTheSymmetryOfTheSquare) {
   scene.stimuli = {disc};
   for (const auto metric : {solver::MetricForm::conservative, solver::MetricForm::expanded}) {
     scene.metric = metric;
-    const Result result = run(scene);
+    const test::RecordedRun result = test::recorded_run(scene);
     const auto& V = result.state.V;
     const auto& x = result.sink.nodes;
     ASSERT_GT(*std::max_element(V.begin(), V.end()), 0.9);

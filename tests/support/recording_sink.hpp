@@ -44,6 +44,24 @@ struct RecordingSink : solver::OutputSink {
   bool wants_fields() const override { return keep_fields; }
 };
 
+// A run in this process, and all that it showed.
+struct RecordedRun {
+  solver::InitialState state;  // at the end
+  RecordingSink sink;
+  solver::RunSummary summary;
+};
+
+inline RecordedRun recorded_run(const solver::Scene& scene, const solver::InitialState& initial) {
+  RecordedRun result;
+  result.sink.keep_fields = true;
+  result.state = solver::run(scene, initial, result.sink, result.summary);
+  return result;
+}
+
+inline RecordedRun recorded_run(const solver::Scene& scene) {
+  return recorded_run(scene, solver::make_initial_state(scene));
+}
+
 // Time at which a sampled trace crosses `level` upward (or downward) for the first time after
 // `from`, by linear interpolation; negative where it does not.
 struct Trace {
