@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernels/observe/phase_singularity.hpp"
+#include "solver/area_sample.hpp"
 #include "solver/equilibrium.hpp"
 #include "solver/run.hpp"
 #include "solver/select_model.hpp"
@@ -17,13 +18,6 @@
 #include "solver/stimulus_schedule.hpp"
 
 namespace myowave::solver {
-
-// Areas of the sheet at one solve. Ratios are to the loaded rest state.
-struct AreaSample {
-  double t = 0;
-  double ratio = 1, min_ratio = 1, max_ratio = 1;
-  double shortening = 0;  // 1 - sqrt(area / undeformed area)
-};
 
 // Room for so many tips is there from the begin: turbulence has tens, raw step data hundreds.
 inline constexpr std::size_t first_tips = 256;

@@ -6,11 +6,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "solver/breakup.hpp"
 #include "solver/denormals.hpp"
 #include "solver/electromechanics.hpp"
 #include "solver/error.hpp"
-#include "solver/rhythm.hpp"
+#include "solver/observers.hpp"
 #include "solver/stability.hpp"
 
 namespace myowave::solver {
@@ -52,59 +51,6 @@ struct Schedule {
   static std::int64_t every(double interval, const Scene& scene) {
     return std::max<std::int64_t>(1, steps_of(interval, scene.time.dt));
   }
-};
-
-// The observers of a run: they look, the model does not see them.
-class Observers {
- public:
-  explicit Observers(const Scene& scene)
-      : scene_(scene),
-        periods_(scene.output.probes.size(), scene.output.period_from),
-        breakup_(scene.initial.type == InitialSettings::Type::broken_front &&
-                         scene.initial.preconditions.empty()
-                     ? BreakupWatch::settling_time
-                     : 0) {}
-
-  void add_tips(int count) { tips_.add(count); }
-  void watch(double t, int count, double largest_V, bool more_stimuli) {
-    breakup_.look(t, count, largest_V, more_stimuli);
-  }
-
-  // V at the probes from step `first` on, all probes of a step together.
-  void add_probe_history(std::int64_t first, std::span<const double> history) {
-    const std::size_t probes = scene_.output.probes.size();
-    if (probes == 0) return;
-    for (std::size_t n = 0; n * probes < history.size(); ++n)
-      periods_.add(static_cast<double>(first + static_cast<std::int64_t>(n)) * scene_.time.dt,
-                   history.subspan(n * probes, probes));
-  }
-
-  void add_area(const AreaSample& area) { areas_.push_back(area); }
-
-  // stimulus_period: 0 where there is no periodic stimulus.
-  void write(Observables& o, double t, double stimulus_period) const {
-    o.period = periods_.period();
-    o.tips = tips_.result();
-    o.breakup_tu = breakup_.breakup();
-    o.death_tu = breakup_.death();
-    if (areas_.empty()) return;
-    o.area = {areas_[0].ratio, areas_[0].ratio};
-    for (const auto& a : areas_)
-      o.area = {std::min(o.area->first, a.ratio), std::max(o.area->second, a.ratio)};
-    constexpr double last_periods = 10;
-    const double from = stimulus_period > 0 ? t - last_periods * stimulus_period : 0;
-    o.shortening.reset();
-    for (const auto& a : areas_)
-      if (a.t >= from && (!o.shortening || a.shortening > o.shortening->first))
-        o.shortening = {a.shortening, a.t};
-  }
-
- private:
-  const Scene& scene_;
-  PeriodMeter periods_;
-  BreakupWatch breakup_;
-  RunningStatistics tips_;
-  std::vector<AreaSample> areas_;  // one a solve
 };
 
 constexpr const char* what_to_do =

@@ -1,0 +1,39 @@
+#include "solver/observers.hpp"
+
+#include <algorithm>
+
+namespace myowave::solver {
+
+Observers::Observers(const Scene& scene)
+    : scene_(scene),
+      periods_(scene.output.probes.size(), scene.output.period_from),
+      breakup_(scene.initial.type == InitialSettings::Type::broken_front &&
+                       scene.initial.preconditions.empty()
+                   ? BreakupWatch::settling_time
+                   : 0) {}
+
+void Observers::add_probe_history(std::int64_t first, std::span<const double> history) {
+  const std::size_t probes = scene_.output.probes.size();
+  if (probes == 0) return;
+  for (std::size_t n = 0; n * probes < history.size(); ++n)
+    periods_.add(static_cast<double>(first + static_cast<std::int64_t>(n)) * scene_.time.dt,
+                 history.subspan(n * probes, probes));
+}
+
+void Observers::write(Observables& o, double t, double stimulus_period) const {
+  o.period = periods_.period();
+  o.tips = tips_.result();
+  o.breakup_tu = breakup_.breakup();
+  o.death_tu = breakup_.death();
+  if (areas_.empty()) return;
+  o.area = {areas_[0].ratio, areas_[0].ratio};
+  for (const auto& a : areas_) o.area = {std::min(o.area->first, a.ratio), std::max(o.area->second, a.ratio)};
+  constexpr double last_periods = 10;
+  const double from = stimulus_period > 0 ? t - last_periods * stimulus_period : 0;
+  o.shortening.reset();
+  for (const auto& a : areas_)
+    if (a.t >= from && (!o.shortening || a.shortening > o.shortening->first))
+      o.shortening = {a.shortening, a.t};
+}
+
+}  // namespace myowave::solver

@@ -1,0 +1,42 @@
+// The observers of a run: they look, the model does not see them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/area_sample.hpp"
+#include "solver/breakup.hpp"
+#include "solver/rhythm.hpp"
+#include "solver/run.hpp"
+#include "solver/scene.hpp"
+
+namespace myowave::solver {
+
+class Observers {
+ public:
+  // Keeps a reference to the scene.
+  explicit Observers(const Scene&);
+
+  void add_tips(int count) { tips_.add(count); }
+  void watch(double t, int count, double largest_V, bool more_stimuli) {
+    breakup_.look(t, count, largest_V, more_stimuli);
+  }
+
+  // V at the probes from step `first` on, all probes of a step together.
+  void add_probe_history(std::int64_t first, std::span<const double> history);
+
+  void add_area(const AreaSample& area) { areas_.push_back(area); }
+
+  // stimulus_period: 0 where there is no periodic stimulus.
+  void write(Observables&, double t, double stimulus_period) const;
+
+ private:
+  const Scene& scene_;
+  PeriodMeter periods_;
+  BreakupWatch breakup_;
+  RunningStatistics tips_;
+  std::vector<AreaSample> areas_;  // one a solve
+};
+
+}  // namespace myowave::solver
