@@ -6,7 +6,7 @@ namespace myowave::solver {
 
 Observers::Observers(const Scene& scene)
     : scene_(scene),
-      periods_(scene.output.probes.size(), scene.output.period_from),
+      beats_(scene.output.probes.size(), scene.output.period_from),
       breakup_(scene.initial.type == InitialSettings::Type::broken_front &&
                        scene.initial.preconditions.empty()
                    ? BreakupWatch::settling_time
@@ -16,12 +16,12 @@ void Observers::add_probe_history(std::int64_t first, std::span<const double> hi
   const std::size_t probes = scene_.output.probes.size();
   if (probes == 0) return;
   for (std::size_t n = 0; n * probes < history.size(); ++n)
-    periods_.add(static_cast<double>(first + static_cast<std::int64_t>(n)) * scene_.time.dt,
-                 history.subspan(n * probes, probes));
+    beats_.add(static_cast<double>(first + static_cast<std::int64_t>(n)) * scene_.time.dt,
+               history.subspan(n * probes, probes));
 }
 
 void Observers::write(Observables& o, double t, double stimulus_period) const {
-  o.period = periods_.period();
+  o.period = beats_.period();
   o.tips = tips_.result();
   o.breakup_tu = breakup_.breakup();
   o.death_tu = breakup_.death();

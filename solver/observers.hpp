@@ -33,7 +33,7 @@ class Observers {
 
  private:
   const Scene& scene_;
-  PeriodMeter periods_;
+  BeatRecorder beats_;
   BreakupWatch breakup_;
   RunningStatistics tips_;
   std::vector<AreaSample> areas_;  // one a solve

@@ -1,6 +1,8 @@
 #include "solver/rhythm.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace myowave::solver {
 
@@ -8,21 +10,61 @@ MeanSd RunningStatistics::result() const {
   return {mean_, n_ > 1 ? std::sqrt(sum_of_squares_ / static_cast<double>(n_ - 1)) : 0.0, n_};
 }
 
-void PeriodMeter::add(double t, std::span<const double> V) {
-  for (std::size_t n = 0; n < probes_.size(); ++n) {
-    Probe& probe = probes_[n];
-    if (probe.seen && probe.armed && probe.V < threshold && V[n] >= threshold) {
-      const double upstroke = probe.t + (t - probe.t) * (threshold - probe.V) / (V[n] - probe.V);
-      if (probe.fired && probe.upstroke >= from_) periods_.add(upstroke - probe.upstroke);
-      probe.upstroke = upstroke;
-      probe.fired = true;
-      probe.armed = false;
-    }
-    if (V[n] < rearm) probe.armed = true;
-    probe.seen = true;
-    probe.t = t;
-    probe.V = V[n];
+std::optional<Beat> BeatDetector::add(double t, double V) {
+  std::optional<Beat> complete;
+  const auto crossing = [&](double level) { return t_ + (t - t_) * (level - V_) / (V - V_); };
+  const auto rises_through = [&](double level) { return seen_ && V_ < level && V >= level; };
+  const auto falls_through = [&](double level) { return seen_ && V_ >= level && V < level; };
+
+  if (rises_through(apd_level)) rise_ = crossing(apd_level);
+  if (armed_ && rises_through(threshold)) complete = begin_beat(crossing(threshold));
+  if (beat_) {
+    beat_peak_ = std::max(beat_peak_, V);
+    const double level = beat_peak_ - repolarisation * (beat_peak_ - beat_rest_);
+    if (std::isnan(beat_->apd90) && falls_through(level)) beat_->apd90 = crossing(level) - beat_->upstroke;
+    if (std::isnan(beat_->apd) && falls_through(apd_level)) beat_->apd = crossing(apd_level) - beat_rise_;
   }
+  if (V < rearm) armed_ = true;
+  lowest_ = seen_ ? std::min(lowest_, V) : V;
+  seen_ = true;
+  t_ = t;
+  V_ = V;
+  return complete;
+}
+
+std::optional<Beat> BeatDetector::begin_beat(double upstroke) {
+  std::optional<Beat> before = beat_;
+  if (before) {
+    before->period = upstroke - before->upstroke;
+    before->di = before->period - before->apd90;
+  }
+  beat_ = {.upstroke = upstroke};
+  beat_rise_ = std::exchange(rise_, unknown);
+  beat_rest_ = beat_peak_ = lowest_;
+  lowest_ = threshold;
+  armed_ = false;
+  return before;
+}
+
+void BeatRecorder::add(double t, std::span<const double> V) {
+  for (std::size_t n = 0; n < probes_.size(); ++n)
+    if (const auto beat = probes_[n].add(t, V[n])) record(n, *beat);
+}
+
+void BeatRecorder::finish() {
+  for (std::size_t n = 0; n < probes_.size(); ++n)
+    if (probes_[n].last()) record(n, *probes_[n].last());
+}
+
+void BeatRecorder::record(std::size_t probe, const Beat& beat) {
+  if (emit_) emit_(probe, beat);
+  if (beat.upstroke < from_) return;
+  const auto add_known = [](RunningStatistics& statistics, double value) {
+    if (!std::isnan(value)) statistics.add(value);
+  };
+  add_known(period_, beat.period);
+  add_known(apd_, beat.apd);
+  add_known(apd90_, beat.apd90);
 }
 
 }  // namespace myowave::solver

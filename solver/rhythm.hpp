@@ -1,7 +1,10 @@
-// The cycle length at points of the sheet.
+// Beats at points of the sheet: cycle lengths, action potential durations, diastolic intervals.
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,28 +28,56 @@ class RunningStatistics {
   double mean_ = 0, sum_of_squares_ = 0;
 };
 
-// Upstrokes at probes: V crosses 0.5 upward (time by linear interpolation), re-armed below 0.2.
-// Intervals whose earlier upstroke is at t >= from count.
-class PeriodMeter {
+// The action potentials at one point, from V in time order. Every crossing is interpolated linearly.
+class BeatDetector {
  public:
-  static constexpr double threshold = 0.5;
-  static constexpr double rearm = 0.2;
+  static constexpr double threshold = 0.5;       // V of the upstroke
+  static constexpr double rearm = 0.2;           // V has to fall below it before the next upstroke
+  static constexpr double apd_level = 0.1;       // V of Beat::apd
+  static constexpr double repolarisation = 0.9;  // fraction of the amplitude, of Beat::apd90
 
-  PeriodMeter(std::size_t probes, double from) : probes_(probes), from_(from) {}
+  // V at time t (t.u.). Returns the beat that an upstroke ends: the one before it.
+  std::optional<Beat> add(double t, double V);
+  // The beat that no upstroke has ended: its period and diastolic interval are not known.
+  const std::optional<Beat>& last() const { return beat_; }
+
+ private:
+  std::optional<Beat> begin_beat(double upstroke);
+
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double t_ = 0, V_ = 0;
+  bool seen_ = false, armed_ = false;
+  double rise_ = unknown;  // through apd_level, of an upstroke to come
+  double lowest_ = 0;      // V since the last upstroke
+  std::optional<Beat> beat_;
+  double beat_rise_ = unknown, beat_rest_ = 0, beat_peak_ = 0;
+};
+
+// The beats at probes, and their statistics over those whose upstroke is at t >= from.
+class BeatRecorder {
+ public:
+  using Emit = std::function<void(std::size_t probe, const Beat&)>;
+
+  // emit: called with each beat when the upstroke after it is known, or at the end.
+  BeatRecorder(std::size_t probes, double from, Emit emit = {})
+      : probes_(probes), from_(from), emit_(std::move(emit)) {}
 
   // V of all probes at time t (t.u.), every step in time order.
   void add(double t, std::span<const double> V);
-  MeanSd period() const { return periods_.result(); }
+  // Once, after the last step: the last beats, whose periods are not known.
+  void finish();
+
+  MeanSd period() const { return period_.result(); }
+  MeanSd apd() const { return apd_.result(); }
+  MeanSd apd90() const { return apd90_.result(); }
 
  private:
-  struct Probe {
-    double t = 0, V = 0;
-    double upstroke = -1;  // time of the last one
-    bool seen = false, armed = false, fired = false;
-  };
-  std::vector<Probe> probes_;
+  void record(std::size_t probe, const Beat&);
+
+  std::vector<BeatDetector> probes_;
   double from_;
-  RunningStatistics periods_;
+  Emit emit_;
+  RunningStatistics period_, apd_, apd90_;
 };
 
 }  // namespace myowave::solver

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,16 @@ struct Frame {
   std::span<const double> V, r, Ta;  // rows * columns
   std::span<const double>
       nodes;  // (element_rows+1) * (element_columns+1) * 2, x1 then x2; empty in a rigid run
+};
+
+// An action potential at a point. Times in t.u., nan where not known.
+struct Beat {
+  double upstroke = 0;                                       // V = 0.5
+  double period = std::numeric_limits<double>::quiet_NaN();  // to the next upstroke
+  double apd = std::numeric_limits<double>::quiet_NaN();     // V > 0.1
+  double apd90 =
+      std::numeric_limits<double>::quiet_NaN();  // upstroke to 90 % repolarisation of its own amplitude
+  double di = std::numeric_limits<double>::quiet_NaN();  // diastolic interval after it: period - apd90
 };
 
 struct Progress {
