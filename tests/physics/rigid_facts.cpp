@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/cell/aliev_panfilov.hpp"
+#include "solver/cell_protocol.hpp"
 #include "solver/run.hpp"
 #include "tests/support/recording_sink.hpp"
 
@@ -78,71 +79,27 @@ TEST(RigidFacts, ConductionVelocityUnderRefinement) {
   EXPECT_NEAR(velocity_of_a_plain_cable(0.15, 0.01), 1.5767, 0.00005);
 }
 
-// Explicit Euler on one cell.
-struct Cell {
-  cell::AlievPanfilov<double> model;
-  double dt, V, r, t = 0;
-  void step(double stimulus = 0) {
-    const double V_old = V;
-    V += dt * (model.excitation(V, r) + stimulus);
-    r += dt * model.recovery(V_old, r);
-    t += dt;
-  }
-};
-
-// Time until V falls below `level`, by linear interpolation.
-double time_to_fall(Cell cell, double level) {
-  double before = cell.V;
-  while (true) {
-    before = cell.V;
-    cell.step();
-    if (before >= level && cell.V < level) return cell.t - cell.dt * (level - cell.V) / (before - cell.V);
-  }
-}
-
 TEST(RigidFacts, CellFromHalfItsAmplitude) {
-  EXPECT_NEAR(time_to_fall({{}, 0.02, 0.5, 0}, 0.1), 38.714, 0.0005);
+  EXPECT_NEAR(solver::time_to_fall({}, {.V = 0.5}, 0.1), 38.714, 0.0005);
 }
 
 TEST(RigidFacts, ActionPotentialOfAlievAndPanfilovsOwnParameters) {
-  // k, a, b, eps, mu1, mu2; they quote 25.58
-  EXPECT_NEAR(time_to_fall({{8, 0.15, 0.15, 0.002, 0.2, 0.3}, 0.001, 0.5, 0}, 0.5), 25.643, 0.0005);
-}
-
-// Dynamic restitution: 60 beats a cycle length, from 60 stepped down by 1 without reset.
-// APD (V > 0.1) of each of the last two beats at each cycle length; 0 for a beat that was not captured.
-struct Restitution {
-  std::vector<double> last, last_but_one;  // index: cycle length
-};
-
-Restitution pace_down_to(int shortest) {
-  Restitution result{std::vector<double>(61), std::vector<double>(61)};
-  Cell cell{{}, 0.02, 0, 0};
-  for (int length = 60; length >= shortest; --length) {
-    const long steps = std::lround(length / cell.dt);
-    for (int beat = 0; beat < 60; ++beat) {
-      double up = -1, apd = 0;
-      for (long s = 0; s < steps; ++s) {
-        const double before = cell.V, t = cell.t;
-        cell.step(s < 10 ? 2.5 : 0);  // I_s = 2.5 for 0.2 t.u.
-        const auto crossing = [&] { return t + cell.dt * (0.1 - before) / (cell.V - before); };
-        if (before < 0.1 && cell.V >= 0.1) up = crossing();
-        if (before >= 0.1 && cell.V < 0.1 && up >= 0) apd = crossing() - up;
-      }
-      result.last_but_one[length] = result.last[length];
-      result.last[length] = apd;
-    }
-  }
-  return result;
+  EXPECT_NEAR(solver::time_to_fall(solver::aliev_panfilov_cell(), {.V = 0.5}, 0.5), 25.643, 0.0005)
+      << "they quote 25.58";
 }
 
 TEST(RigidFacts, DynamicRestitutionOfACell) {
-  const Restitution r = pace_down_to(30);
-  EXPECT_NEAR(r.last[60], 31.42, 0.01);
-  EXPECT_NEAR(r.last[44], 27.55, 0.01);
-  EXPECT_NEAR(r.last[34], 23.7, 0.05);
-  EXPECT_NEAR(r.last[34], r.last_but_one[34], 0.05) << "no alternans yet";
-  EXPECT_GT(std::abs(r.last[31] - r.last_but_one[31]), 0.2) << "alternans at 31";
+  const auto points = solver::restitution({});
+  const auto at = [&](int cycle_length) { return points.at(60 - cycle_length); };
+  using Capture = solver::RestitutionPoint::Capture;
+  ASSERT_EQ(points.size(), 31);
+  EXPECT_NEAR(at(60).apd(), 31.42, 0.01);
+  EXPECT_NEAR(at(44).apd(), 27.55, 0.01);
+  EXPECT_NEAR(at(34).apd(), 23.7, 0.05);
+  for (int length = 31; length <= 60; ++length) EXPECT_EQ(at(length).capture, Capture::one_to_one) << length;
+  for (int length = 32; length <= 60; ++length) EXPECT_FALSE(at(length).alternates) << length;
+  EXPECT_TRUE(at(31).alternates);
+  EXPECT_EQ(at(30).capture, Capture::two_to_one);
 }
 
 // The standard settled spiral of the 121x121 sheet.
