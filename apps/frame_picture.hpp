@@ -4,6 +4,7 @@
 
 #include "apps/frame_shape.hpp"
 #include "apps/picture.hpp"
+#include "apps/sheet_raster.hpp"
 #include "solver/run.hpp"
 
 namespace myowave::apps {
@@ -15,18 +16,15 @@ class FramePicture {
 
   Picture draw(const solver::Frame&) const;
   // Where a point of the (deformed) sheet is in the picture.
-  Point to_pixel(double x1, double x2) const;
+  Point to_pixel(double x1, double x2) const { return view_.to_pixel(x1, x2); }
 
  private:
-  void fill_element(Picture&, const solver::Frame&, std::span<const double> nodes, int I, int J) const;
-  void draw_lines(Picture&, Strokes& border, std::span<const double> nodes) const;
   void draw_labels(Picture&, Strokes& text, double t) const;
 
-  FrameShape shape_;  // a rigid sheet is drawn as one element
+  FrameShape shape_;
   double ms_per_tu_;
-  int decimals_;            // of the time, ms
-  double view_x_, view_y_;  // lower left corner of the view, length units
-  double scale_;            // pixels a length unit
+  int decimals_;  // of the time, ms
+  SheetView view_;
   int view_width_, view_height_;
 };
 

@@ -2,25 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <cstring>
 
+#include "tests/support/png.hpp"
 #include "tests/support/synthetic_frames.hpp"
 
 namespace myowave::apps {
 namespace {
 
-Picture decode(const std::string& bytes) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
-    throw std::runtime_error(image.message);
-  image.format = PNG_FORMAT_RGB;
-  Picture picture(int(image.width), int(image.height), {});
-  png_image_finish_read(&image, nullptr, &picture.at(0, 0), 0, nullptr);
-  return picture;
-}
+using test::decode_png;
 
 int difference(const Colour& a, const Colour& b) {
   return std::max({std::abs(a.red - b.red), std::abs(a.green - b.green), std::abs(a.blue - b.blue)});
@@ -44,7 +35,7 @@ TEST(Picture, SurvivesPng) {
     for (int x = 0; x < 31; ++x)
       picture.at(x, y) = {std::uint8_t(8 * x), std::uint8_t(15 * y), std::uint8_t(x * y)};
   }
-  const Picture back = decode(picture.png());
+  const Picture back = decode_png(picture.png());
   ASSERT_EQ(back.width(), 31);
   ASSERT_EQ(back.height(), 17);
   EXPECT_EQ(std::memcmp(&back.at(0, 0), &picture.at(0, 0), 3 * 31 * 17), 0);
@@ -81,7 +72,7 @@ TEST(FramePicture, ShowsVWhereTheDeformedMaterialIs) {
   const FramePicture drawing(scene);
   const double t = 2;
   const auto frame = frames.at(t);
-  const Picture picture = decode(drawing.draw(frame).png());
+  const Picture picture = decode_png(drawing.draw(frame).png());
   EXPECT_NEAR(std::max(picture.width(), picture.height()), 960, 40);
   EXPECT_EQ(picture.height() % 2, 0);
   EXPECT_EQ(picture.width() % 2, 0);

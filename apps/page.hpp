@@ -1,0 +1,23 @@
+// Text and images for pages that hold all they show in the one file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace myowave::apps {
+
+// Text that any reader of UTF-8 and XML takes: what is no UTF-8, and control characters other than tab and
+// newline, become U+FFFD.
+std::string valid_text(std::string_view);
+
+// For the content and the quoted attributes of HTML and XML.
+std::string html_escape(std::string_view);
+
+std::string base64(std::string_view bytes);
+
+// "data:image/png;base64,..." or, of .svg, "data:image/svg+xml;base64,...".
+// Errors: std::runtime_error "cannot read FILE".
+std::string data_uri(const std::filesystem::path& image);
+
+}  // namespace myowave::apps
