@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // What an earlier run may have left. Nothing else in the folder is touched.
-constexpr std::array<const char*, 7> file_names{"summary.json", "manifest.json", "fields.h5", "fields.xdmf",
-                                                "probes.csv",   "tips.csv",      "area.csv"};
+constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5", "fields.xdmf",
+                                "probes.csv",   "tips.csv",      "area.csv",  "element_areas.csv"};
 
 bool is_frame(const fs::path& path) {
   return path.extension() == ".png" && path.filename().string().starts_with("frame_");
@@ -57,6 +57,12 @@ std::string probes_header(const solver::OutputSettings& output) {
   return header + '\n';
 }
 
+std::string element_areas_header(const FrameShape& shape) {
+  std::string header = "t";
+  for (int e = 0; e < shape.element_rows() * shape.element_columns(); ++e) header += fmt::format(",A{}", e);
+  return header + '\n';
+}
+
 }  // namespace
 
 struct RunFolder::Impl {
@@ -71,6 +77,9 @@ struct RunFolder::Impl {
       fields.emplace(folder / "fields.h5", shape, scene.time.ms_per_tu);
       xdmf.emplace(folder / "fields.xdmf", shape, "fields.h5");
     }
+    if (has_element_areas(scene)) {
+      element_areas.emplace(folder / "element_areas.csv", element_areas_header(shape));
+    }
     if (scene.output.frames) {
       fs::create_directories(folder / "frames");
       picture.emplace(scene);
@@ -80,6 +89,7 @@ struct RunFolder::Impl {
   fs::path folder;
   FrameShape shape;
   AppendedFile probes, tips, area;
+  std::optional<AppendedFile> element_areas;
   std::optional<FieldsFile> fields;
   std::optional<XdmfFile> xdmf;
   std::optional<FramePicture> picture;
@@ -156,6 +166,10 @@ void RunFolder::tips(double t, std::span<const solver::Tip> tips) {
 
 void RunFolder::area(double t, double total, double min, double max) {
   impl_->area.append(fmt::format("{},{},{},{}\n", t, total, min, max));
+}
+
+void RunFolder::element_areas(double t, std::span<const double> ratios) {
+  impl_->element_areas->append(fmt::format("{},{}\n", t, fmt::join(ratios, ",")));
 }
 
 void RunFolder::progress(const solver::Progress& progress) { impl_->progress.show(progress); }

@@ -30,6 +30,7 @@ class RunFolder final : public solver::OutputSink {
   void probes(double t, std::span<const double>) override;
   void tips(double t, std::span<const solver::Tip>) override;
   void area(double t, double total, double min, double max) override;
+  void element_areas(double t, std::span<const double>) override;
   void progress(const solver::Progress&) override;
   void warning(const std::string&) override;
   bool wants_fields() const override;

@@ -299,9 +299,13 @@ std::vector<Section> make_schema() {
          "Tips. A multiple of dt.", "every"},
         {"probes_every", "t.u.", number(MYOWAVE_AT(scene.output.probes_every), positive),
          "Probes. A multiple of dt.", "every"},
+        {"from", "t.u.", number(MYOWAVE_AT(scene.output.from), not_negative),
+         "What `every` says is shown from here on, and at t_end."},
         {"frames", "", flag(MYOWAVE_AT(scene.output.frames)), "PNG pictures of V on the deformed sheet."},
         {"fields", "", flag(MYOWAVE_AT(scene.output.fields)),
          "fields.h5 with V, r, Ta and nodes, and its .xdmf."},
+        {"element_areas", "", flag(MYOWAVE_AT(scene.output.element_areas)),
+         "element_areas.csv, the area of each element. No effect in a rigid run."},
         {"tension", "", flag(MYOWAVE_AT(scene.output.tension)),
          "`false`: Ta is computed only where it contracts the sheet. A contracting run that starts from "
          "fields.h5 needs it there.",

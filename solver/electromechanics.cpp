@@ -286,6 +286,13 @@ void Electromechanics<ExecutionSpace, Real>::measure_area() {
 }
 
 template <class ExecutionSpace, class Real>
+std::vector<double> Electromechanics<ExecutionSpace, Real>::element_area_ratios() const {
+  std::vector<double> ratios(rest_areas_.size());
+  for (std::size_t e = 0; e < ratios.size(); ++e) ratios[e] = element_areas_[e] / rest_areas_[e];
+  return ratios;
+}
+
+template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::int64_t steps, int substeps) {
   const Timer timer(phases_->excitation);
   const double dt = scene_.time.dt / substeps;

@@ -93,6 +93,8 @@ class Electromechanics {
   std::vector<double> probe_values() const;
 
   const AreaSample& area() const { return area_; }  // of the last solve taken, at the time of its tension
+  // Of each element, relative to the loaded rest state.
+  std::vector<double> element_area_ratios() const;
   bool deforms() const { return equilibrium_.has_value(); }
 
   InitialState download() const;

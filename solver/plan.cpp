@@ -210,20 +210,24 @@ std::vector<PlannedPart> outputs(const Scene& scene, const Sizes& sizes) {
     return PlannedPart{
         .part = part, .active = active, .what = active ? std::move(what) : "", .why = std::move(why)};
   };
-  const std::string every = fmt::format("every {} t.u.", scene.output.every);
-  return {output("areas", scene.mechanics.has_value(), fmt::format("of the elements, shown {}", every),
-                 scene.mechanics ? "[mechanics]" : "the sheet is rigid"),
-          output("fields", scene.output.fields,
-                 fmt::format("V, r{}{} {}", has_tension(scene) ? ", Ta" : "",
-                             scene.mechanics ? ", nodes" : "", every),
-                 fmt::format("output.fields = {}", scene.output.fields)),
-          output("frames", scene.output.frames, fmt::format("PNG pictures {}", every),
-                 fmt::format("output.frames = {}", scene.output.frames)),
-          {.part = "state on the host",
-           .active = true,
-           .what = "V, r and Ta in float64, as they come, are shown and go",
-           .why = "always",
-           .other_bytes = 3 * sizeof(double) * sizes.nodes}};
+  const std::string every =
+      fmt::format("every {} t.u.{}", scene.output.every,
+                  scene.output.from > 0 ? fmt::format(" from {} t.u. on", scene.output.from) : "");
+  const char* each = scene.output.element_areas ? " and each of them" : "";
+  return {
+      output("areas", scene.mechanics.has_value(), fmt::format("of the elements{}, shown {}", each, every),
+             scene.mechanics ? "[mechanics]" : "the sheet is rigid"),
+      output("fields", scene.output.fields,
+             fmt::format("V, r{}{} {}", has_tension(scene) ? ", Ta" : "", scene.mechanics ? ", nodes" : "",
+                         every),
+             fmt::format("output.fields = {}", scene.output.fields)),
+      output("frames", scene.output.frames, fmt::format("PNG pictures {}", every),
+             fmt::format("output.frames = {}", scene.output.frames)),
+      {.part = "state on the host",
+       .active = true,
+       .what = "V, r and Ta in float64, as they come, are shown and go",
+       .why = "always",
+       .other_bytes = 3 * sizeof(double) * sizes.nodes}};
 }
 
 PlannedPart precondition(const Precondition& p) {

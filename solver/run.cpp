@@ -26,6 +26,7 @@ std::int64_t steps_of(double duration, double dt) { return std::llround(duration
 // What is due at which step.
 struct Schedule {
   std::int64_t last, fields, tips, probes, watch, mechanics, check;
+  double fields_from;  // in steps: it may be beyond what any run takes
 
   static constexpr std::int64_t check_without_mechanics = 100;  // steps between checks for non-finite values
 
@@ -36,9 +37,14 @@ struct Schedule {
         probes(every(scene.output.probes_every, scene)),
         watch(every(BreakupWatch::look_every, scene)),
         mechanics(scene.mechanics ? scene.mechanics->interval : 0),
-        check(scene.mechanics ? scene.mechanics->interval : check_without_mechanics) {}
+        check(scene.mechanics ? scene.mechanics->interval : check_without_mechanics),
+        // A decimal number of t.u. comes only close to the step that is meant.
+        fields_from(scene.output.from / scene.time.dt - 1e-6) {}
 
   bool due(std::int64_t step, std::int64_t period) const { return step == last || step % period == 0; }
+  bool fields_due(std::int64_t step) const {
+    return due(step, fields) && (step == last || static_cast<double>(step) >= fields_from);
+  }
 
   std::int64_t next(std::int64_t step) const {
     std::int64_t next = last;
@@ -190,12 +196,13 @@ class Stage {
     }
     if (schedule_.due(step_, schedule_.probes) && !scene_.output.probes.empty())
       output([&] { sink_.probes(t(), sheet.probe_values()); });
-    if (!schedule_.due(step_, schedule_.fields)) return;
+    if (!schedule_.fields_due(step_)) return;
     output([&] {
       if (sheet.deforms()) {
         const AreaSample& area = sheet.area();
         sink_.area(t(), area.ratio, area.min_ratio, area.max_ratio);
       }
+      if (has_element_areas(scene_)) sink_.element_areas(t(), sheet.element_area_ratios());
       if (sink_.wants_fields()) write_fields(sheet);
     });
   }

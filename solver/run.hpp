@@ -70,6 +70,8 @@ class OutputSink {
   virtual void tips(double /*t*/, std::span<const Tip>) {}
   // Relative to the loaded rest state: whole sheet, smallest and largest element.
   virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
+  // Likewise, of each element I (element columns) + J; only where the scene asks for them.
+  virtual void element_areas(double /*t*/, std::span<const double>) {}
   virtual void progress(const Progress&) {}
   // At the time that the run comes to know; all stand in RunSummary::warnings too.
   virtual void warning(const std::string&) {}

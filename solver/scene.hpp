@@ -105,8 +105,10 @@ struct OutputSettings {
   double every = 1;         // t.u.
   double tips_every = 1;    // t.u.
   double probes_every = 1;  // t.u.
+  double from = 0;          // t.u.; before it nothing of `every` is shown
   bool frames = false;
   bool fields = false;
+  bool element_areas = false;              // no effect in a rigid run
   bool tension = true;                     // Ta is shown, or another run starts from it
   std::vector<std::array<int, 2>> probes;  // (row, column); empty in a file: the four default ones
   double period_from = 100;                // t.u.
@@ -136,6 +138,8 @@ inline bool contracts(const Scene& scene) { return scene.mechanics && scene.mech
 inline bool has_tension(const Scene& scene) {
   return scene.tension.law != "none" && (contracts(scene) || scene.output.tension);
 }
+
+inline bool has_element_areas(const Scene& scene) { return scene.mechanics && scene.output.element_areas; }
 
 // The form of the diffusion term.
 inline MetricForm metric_form(const Scene& scene) {

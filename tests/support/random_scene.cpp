@@ -35,6 +35,7 @@ class RandomScene {
     if (draw_.chance(0.3)) scene_.set("accuracy", "on_unstable", draw_.chance(0.5) ? "'stop'" : "'substep'");
     // below the bounds that are held against a run
     if (draw_.chance(0.2)) scene_.set("accuracy", "quiescent", draw_.chance(0.5) ? "0" : "1e-15");
+    observation();
     return std::move(scene_);
   }
 
@@ -229,6 +230,12 @@ class RandomScene {
     }
     maybe("output", "period_from", 100, 0, 10);
     if (draw_.chance(0.3)) flag("output", "tension", 0.5);
+  }
+
+  // Drawn last: a key that is added here leaves the rest of each seed's scene as it is.
+  void observation() {
+    maybe("output", "from", 0, 0, 1.1 * steps_ * dt_, 0.2);
+    if (draw_.chance(0.2)) flag("output", "element_areas", 0.7);
   }
 
   Draw draw_;

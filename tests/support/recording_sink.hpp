@@ -20,10 +20,16 @@ struct RecordingSink : solver::OutputSink {
     double t, total, min, max;
   };
 
+  struct ElementAreas {
+    double t;
+    std::vector<double> ratios;
+  };
+
   bool keep_fields = false;
   std::vector<ProbeSample> probe_samples;
   std::vector<TipSample> tip_samples;
   std::vector<Area> areas;
+  std::vector<ElementAreas> element_area_samples;
   std::vector<double> V, r, Ta, nodes;  // of the last frame
 
   void probes(double t, std::span<const double> values) override {
@@ -40,6 +46,9 @@ struct RecordingSink : solver::OutputSink {
     r.assign(frame.r.begin(), frame.r.end());
     Ta.assign(frame.Ta.begin(), frame.Ta.end());
     nodes.assign(frame.nodes.begin(), frame.nodes.end());
+  }
+  void element_areas(double t, std::span<const double> ratios) override {
+    element_area_samples.push_back({t, {ratios.begin(), ratios.end()}});
   }
   bool wants_fields() const override { return keep_fields; }
 };

@@ -108,6 +108,20 @@ TEST(RunFolder, TensionThatIsNotComputedLeavesItsCellsEmpty) {
   EXPECT_THAT(read_text(folder / "out/fields.xdmf"), testing::Not(HasSubstr("Ta")));
 }
 
+TEST(RunFolder, AreasOfElementsAreThereWhereTheSceneAsksForThem) {
+  const TemporaryFolder folder;
+  auto scene = scene_of(21, true, false, false);
+  scene.output.element_areas = true;
+  {
+    RunFolder run(folder / "out", scene, false, true);
+    run.element_areas(0.5, std::vector<double>{1, 0.25, 1.5, 1.25});
+  }
+  EXPECT_EQ(read_text(folder / "out/element_areas.csv"), "t,A0,A1,A2,A3\n0.5,1,0.25,1.5,1.25\n");
+  scene.output.element_areas = false;
+  const RunFolder without(folder / "out", scene, true, true);
+  EXPECT_FALSE(fs::exists(folder / "out/element_areas.csv")) << "a result of the run before";
+}
+
 TEST(RunFolder, RefusesAFolderWithResultsUnlessForced) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out/frames");

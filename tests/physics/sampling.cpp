@@ -1,0 +1,89 @@
+// What of a run is shown, and when.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "solver/run.hpp"
+#include "tests/support/allclose.hpp"
+#include "tests/support/recording_sink.hpp"
+#include "tests/support/reference_mechanics.hpp"
+
+namespace myowave {
+namespace {
+
+using solver::Scene;
+using testing_support::all_close;
+
+// A front that ends in the middle of 3 x 4 elements.
+Scene contracting_sheet() {
+  Scene scene;
+  scene.grid = {31, 41, 0.6};
+  scene.time.t_end = 12;
+  scene.initial.type = solver::InitialSettings::Type::broken_front;
+  scene.mechanics.emplace();
+  scene.output.element_areas = true;
+  return scene;
+}
+
+std::vector<double> times_of(const std::vector<test::RecordingSink::Area>& areas) {
+  std::vector<double> times;
+  for (const auto& area : areas) times.push_back(area.t);
+  return times;
+}
+
+TEST(Sampling, ElementAreasAddUpToTheAreaOfTheSheet) {
+  const test::RecordedRun run = test::recorded_run(contracting_sheet());
+  ASSERT_EQ(run.sink.areas.size(), 13);
+  ASSERT_EQ(run.sink.element_area_samples.size(), 13);
+  double widest = 0;
+  for (std::size_t n = 0; n < 13; ++n) {
+    const auto& [t, ratios] = run.sink.element_area_samples[n];
+    ASSERT_EQ(ratios.size(), 12);
+    EXPECT_EQ(t, run.sink.areas[n].t);
+    // at rest all elements are of one size
+    EXPECT_NEAR(std::accumulate(ratios.begin(), ratios.end(), 0.0) / 12, run.sink.areas[n].total, 1e-8);
+    const auto [smallest, largest] = std::ranges::minmax_element(ratios);
+    EXPECT_EQ(*smallest, run.sink.areas[n].min);
+    EXPECT_EQ(*largest, run.sink.areas[n].max);
+    widest = std::max(widest, *largest - *smallest);
+  }
+  EXPECT_GT(widest, 0.1) << "a front contracts one part of the sheet before the other";
+}
+
+TEST(Sampling, ElementAreasAreThoseOfTheNodesShown) {
+  const test::RecordedRun run = test::recorded_run(contracting_sheet());
+  constexpr double rest_area = 1.2754145052;  // of the undeformed area under p = 10 kN/m
+  std::vector<double> expected = reference::element_areas({3, 4, 6}, run.sink.nodes);
+  for (double& area : expected) area /= 36 * rest_area;
+  EXPECT_TRUE(all_close(run.sink.element_area_samples.back().ratios, expected, 4, {.absolute = 1e-8}));
+}
+
+TEST(Sampling, ElementAreasAreShownWhereAskedFor) {
+  Scene scene = contracting_sheet();
+  scene.time.t_end = 1;
+  scene.output.element_areas = false;
+  EXPECT_TRUE(test::recorded_run(scene).sink.element_area_samples.empty());
+  scene.output.element_areas = true;
+  scene.mechanics.reset();
+  EXPECT_TRUE(test::recorded_run(scene).sink.element_area_samples.empty()) << "a rigid sheet has none";
+}
+
+TEST(Sampling, BeginsAtTheFirstMultipleAndEndsWithTheRun) {
+  Scene scene = contracting_sheet();
+  scene.output.every = 0.6;
+  scene.time.t_end = 2;
+  scene.output.from = 1.2;  // 60 steps; 1.2 / 0.02 is a little less
+  EXPECT_EQ(times_of(test::recorded_run(scene).sink.areas), (std::vector<double>{60 * 0.02, 90 * 0.02, 2}));
+  scene.output.from = 1.21;
+  EXPECT_EQ(times_of(test::recorded_run(scene).sink.areas), (std::vector<double>{90 * 0.02, 2}));
+  scene.output.from = 1e300;
+  const test::RecordedRun late = test::recorded_run(scene);
+  EXPECT_EQ(times_of(late.sink.areas), (std::vector<double>{2}));
+  EXPECT_FALSE(late.sink.V.empty()) << "the state at the end is there for a run that goes on from it";
+  EXPECT_EQ(late.sink.tip_samples.size(), 3) << "tips are not shown every `every`";
+}
+
+}  // namespace
+}  // namespace myowave
