@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -24,8 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // What an earlier run may have left. Nothing else in the folder is touched.
-constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5", "fields.xdmf",
-                                "probes.csv",   "tips.csv",      "area.csv",  "element_areas.csv"};
+constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5",
+                                "fields.xdmf",  "probes.csv",    "tips.csv",
+                                "beats.csv",    "area.csv",      "element_areas.csv"};
 
 bool is_frame(const fs::path& path) {
   return path.extension() == ".png" && path.filename().string().starts_with("frame_");
@@ -71,6 +73,7 @@ struct RunFolder::Impl {
         shape(frame_shape(scene)),
         probes(folder / "probes.csv", probes_header(scene.output)),
         tips(folder / "tips.csv", "t,x,y,charge\n"),
+        beats(folder / "beats.csv", "probe,upstroke_tu,period_tu,apd_tu,apd90_tu,di_tu\n"),
         area(folder / "area.csv", "t,area,area_min,area_max\n"),
         progress(scene.time.ms_per_tu, quiet) {
     if (scene.output.fields) {
@@ -88,7 +91,7 @@ struct RunFolder::Impl {
 
   fs::path folder;
   FrameShape shape;
-  AppendedFile probes, tips, area;
+  AppendedFile probes, tips, beats, area;
   std::optional<AppendedFile> element_areas;
   std::optional<FieldsFile> fields;
   std::optional<XdmfFile> xdmf;
@@ -162,6 +165,13 @@ void RunFolder::tips(double t, std::span<const solver::Tip> tips) {
   std::string rows;
   for (const auto& tip : tips) rows += fmt::format("{},{},{},{}\n", t, tip.x, tip.y, tip.charge);
   impl_->tips.append(rows);
+}
+
+void RunFolder::beat(const solver::ProbeBeat& one) {
+  const auto cell = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
+  const solver::Beat& beat = one.beat;
+  impl_->beats.append(fmt::format("{},{},{},{},{},{}\n", one.probe, beat.upstroke, cell(beat.period),
+                                  cell(beat.apd), cell(beat.apd90), cell(beat.di)));
 }
 
 void RunFolder::area(double t, double total, double min, double max) {

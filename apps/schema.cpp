@@ -291,7 +291,7 @@ std::vector<Section> make_schema() {
          "Around all waves, nodes whose V, r and Ta / k_Ta are this close to zero are left as they are. "
          "0: no bit of a result changes; 1e-12: the last digits. On hosts only."}}},
       {"output",
-       "What is written, besides summary.json, manifest.json, tips.csv, area.csv and probes.csv.",
+       "What is written, besides summary.json, manifest.json, tips.csv, area.csv, probes.csv and beats.csv.",
        {{"every", "t.u.", output_every(),
          "Fields, frames and areas: at t = 0, its multiples and t_end. A multiple of dt.",
          "1, or the multiple of dt nearest to it"},
@@ -310,10 +310,10 @@ std::vector<Section> make_schema() {
          "`false`: Ta is computed only where it contracts the sheet. A contracting run that starts from "
          "fields.h5 needs it there.",
          "true with [mechanics] or fields = true"},
-        {"probes", "", Probes{}, "Nodes whose V, r and Ta go to probes.csv.",
+        {"probes", "", Probes{}, "Nodes whose V, r and Ta go to probes.csv, and whose beats to beats.csv.",
          "the four nodes a quarter of a side from the corners"},
         {"period_from", "t.u.", number(MYOWAVE_AT(scene.output.period_from), not_negative),
-         "Periods count from the upstrokes at or after this time."}}},
+         "The means of the beats count from the upstrokes at or after this time."}}},
   };
 }
 

@@ -15,6 +15,8 @@ json number(const std::optional<double>& value) { return value ? number(*value) 
 json mean(const solver::MeanSd& m) { return m.n > 0 ? number(m.mean) : json(nullptr); }
 json sd(const solver::MeanSd& m) { return m.n > 1 ? number(m.sd) : json(nullptr); }
 
+json mean_sd_n(const solver::MeanSd& m) { return {{"mean", mean(m)}, {"sd", sd(m)}, {"n", m.n}}; }
+
 json pair(const std::optional<std::pair<double, double>>& values, const char* first, const char* second) {
   if (!values) return nullptr;
   return {{first, number(values->first)}, {second, number(values->second)}};
@@ -44,12 +46,10 @@ json plan(const solver::Plan& all) {
 }
 
 json observables(const solver::Observables& o) {
-  return {{"period", {{"mean", mean(o.period)}, {"sd", sd(o.period)}, {"n", o.period.n}}},
-          {"tips", {{"mean", mean(o.tips)}, {"sd", sd(o.tips)}}},
-          {"breakup_tu", number(o.breakup_tu)},
-          {"death_tu", number(o.death_tu)},
-          {"area", pair(o.area, "min", "max")},
-          {"shortening", pair(o.shortening, "max", "t")}};
+  return {{"period", mean_sd_n(o.period)},      {"apd", mean_sd_n(o.apd)},
+          {"apd90", mean_sd_n(o.apd90)},        {"tips", {{"mean", mean(o.tips)}, {"sd", sd(o.tips)}}},
+          {"breakup_tu", number(o.breakup_tu)}, {"death_tu", number(o.death_tu)},
+          {"area", pair(o.area, "min", "max")}, {"shortening", pair(o.shortening, "max", "t")}};
 }
 
 }  // namespace

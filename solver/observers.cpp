@@ -22,6 +22,8 @@ void Observers::add_probe_history(std::int64_t first, std::span<const double> hi
 
 void Observers::write(Observables& o, double t, double stimulus_period) const {
   o.period = beats_.period();
+  o.apd = beats_.apd();
+  o.apd90 = beats_.apd90();
   o.tips = tips_.result();
   o.breakup_tu = breakup_.breakup();
   o.death_tu = breakup_.death();

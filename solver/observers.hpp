@@ -26,6 +26,11 @@ class Observers {
   // V at the probes from step `first` on, all probes of a step together.
   void add_probe_history(std::int64_t first, std::span<const double> history);
 
+  // Beats that are complete since the last call.
+  std::vector<ProbeBeat> take_beats() { return beats_.take(); }
+  // No more looks are to come.
+  void finish() { beats_.finish(); }
+
   void add_area(const AreaSample& area) { areas_.push_back(area); }
 
   // stimulus_period: 0 where there is no periodic stimulus.

@@ -57,7 +57,7 @@ void BeatRecorder::finish() {
 }
 
 void BeatRecorder::record(std::size_t probe, const Beat& beat) {
-  if (emit_) emit_(probe, beat);
+  complete_.push_back({probe, beat});
   if (beat.upstroke < from_) return;
   const auto add_known = [](RunningStatistics& statistics, double value) {
     if (!std::isnan(value)) statistics.add(value);

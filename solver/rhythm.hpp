@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/run.hpp"
@@ -56,16 +56,14 @@ class BeatDetector {
 // The beats at probes, and their statistics over those whose upstroke is at t >= from.
 class BeatRecorder {
  public:
-  using Emit = std::function<void(std::size_t probe, const Beat&)>;
-
-  // emit: called with each beat when the upstroke after it is known, or at the end.
-  BeatRecorder(std::size_t probes, double from, Emit emit = {})
-      : probes_(probes), from_(from), emit_(std::move(emit)) {}
+  BeatRecorder(std::size_t probes, double from) : probes_(probes), from_(from) {}
 
   // V of all probes at time t (t.u.), every step in time order.
   void add(double t, std::span<const double> V);
   // Once, after the last step: the last beats, whose periods are not known.
   void finish();
+  // Those that the upstroke after them, or finish(), has completed since the last call.
+  std::vector<ProbeBeat> take() { return std::exchange(complete_, {}); }
 
   MeanSd period() const { return period_.result(); }
   MeanSd apd() const { return apd_.result(); }
@@ -76,7 +74,7 @@ class BeatRecorder {
 
   std::vector<BeatDetector> probes_;
   double from_;
-  Emit emit_;
+  std::vector<ProbeBeat> complete_;
   RunningStatistics period_, apd_, apd90_;
 };
 

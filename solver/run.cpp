@@ -90,10 +90,10 @@ class Stage {
     try {
       advance(sheet);
     } catch (...) {
-      update_summary(sheet);
+      end(sheet);
       throw;
     }
-    update_summary(sheet);
+    end(sheet);
     return sheet.download();
   }
 
@@ -114,6 +114,7 @@ class Stage {
       const std::int64_t first = step_;
       step_to(sheet, schedule_.next(step_));
       if (observed_) observers_.add_probe_history(first, sheet.probe_history());
+      show_beats();
     }
     if (sheet.finish_mechanics(t())) observers_.add_area(sheet.area());
   }
@@ -207,6 +208,10 @@ class Stage {
     });
   }
 
+  void show_beats() {
+    for (const auto& beat : observers_.take_beats()) output([&] { sink_.beat(beat); });
+  }
+
   void write_fields(const Sheet& sheet) {
     const InitialState state = sheet.download();
     const std::vector<double> nodes = sheet.download_nodes();
@@ -228,6 +233,13 @@ class Stage {
     last_report_ = Clock::now();
     sink_.progress(
         {t(), scene_.time.t_end, name_, cell_steps_per_s(), summary_.mechanics.newton_iterations, tips_});
+  }
+
+  // The summary first: it is to be told also where an output fails.
+  void end(const Sheet& sheet) {
+    observers_.finish();
+    update_summary(sheet);
+    show_beats();
   }
 
   void update_summary(const Sheet& sheet) {

@@ -51,6 +51,11 @@ struct Beat {
   double di = std::numeric_limits<double>::quiet_NaN();  // diastolic interval after it: period - apd90
 };
 
+struct ProbeBeat {
+  std::size_t probe = 0;
+  Beat beat;
+};
+
 struct Progress {
   double t = 0;
   double t_end = 0;
@@ -68,6 +73,8 @@ class OutputSink {
   // V0, r0, Ta0, V1, ...; Ta 0 where it is not computed.
   virtual void probes(double /*t*/, std::span<const double>) {}
   virtual void tips(double /*t*/, std::span<const Tip>) {}
+  // Once the upstroke after it has come, those that the run ends at its end.
+  virtual void beat(const ProbeBeat&) {}
   // Relative to the loaded rest state: whole sheet, smallest and largest element.
   virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
   // Likewise, of each element I (element columns) + J; only where the scene asks for them.
@@ -97,7 +104,8 @@ struct MeanSd {
 };
 
 struct Observables {
-  MeanSd period;  // t.u.
+  // Of the beats at probes, t.u.: to the next upstroke, V > 0.1, and to 90 % repolarisation.
+  MeanSd period, apd, apd90;
   MeanSd tips;
   std::optional<double> breakup_tu, death_tu;
   std::optional<std::pair<double, double>> area;        // min, max

@@ -19,6 +19,8 @@ using test::Trace;
 // A cable of length 120 as a sheet of two equal rows, V = 1 on x <= 3.
 struct Cable {
   double conduction_velocity, apd, largest_rate;
+  std::vector<solver::ProbeBeat> beats;
+  solver::MeanSd apd_of_beats;
 };
 
 Cable run_cable(double dx, double dt) {
@@ -27,6 +29,7 @@ Cable run_cable(double dx, double dt) {
   scene.grid = {2, n, dx};
   scene.time = {dt, 140, 10};
   scene.output.probes_every = dt;
+  scene.output.period_from = 0;
   scene.output.probes = {{0, n / 3}, {0, 2 * n / 3}, {0, n / 2}};
   solver::InitialState state = solver::make_initial_state(scene);
   for (int i = 0; i < 2; ++i)
@@ -42,7 +45,8 @@ Cable run_cable(double dx, double dt) {
   double largest_rate = 0;
   for (std::size_t k = 1; k < middle.t.size(); ++k)
     largest_rate = std::max(largest_rate, (middle.value[k] - middle.value[k - 1]) / dt);
-  return {(2 * n / 3 - n / 3) * dx / (far - near), down - up, largest_rate};
+  return {(2 * n / 3 - n / 3) * dx / (far - near), down - up, largest_rate, sink.beats,
+          summary.observables.apd};
 }
 
 TEST(RigidFacts, PlaneWaveAtThePapersResolution) {
@@ -50,6 +54,10 @@ TEST(RigidFacts, PlaneWaveAtThePapersResolution) {
   EXPECT_NEAR(cable.conduction_velocity, 1.5350, 0.00005);
   EXPECT_NEAR(cable.apd, 36.71, 0.005);
   EXPECT_NEAR(cable.largest_rate, 0.810, 0.0005);
+  ASSERT_EQ(cable.beats.size(), 3) << "one at each probe";
+  for (const auto& [probe, beat] : cable.beats) EXPECT_NEAR(beat.apd, 36.71, 0.02) << probe;
+  EXPECT_EQ(cable.apd_of_beats.n, 3);
+  EXPECT_NEAR(cable.apd_of_beats.mean, 36.71, 0.01);
 }
 
 // At dx = 0.15 and dt = 0.01 a cable is stable and a sheet is not: the same cable as a plain loop.

@@ -85,5 +85,29 @@ TEST(Sampling, BeginsAtTheFirstMultipleAndEndsWithTheRun) {
   EXPECT_EQ(late.sink.tip_samples.size(), 3) << "tips are not shown every `every`";
 }
 
+// Paced as a whole, every node beats with the stimulus.
+TEST(Sampling, BeatsOfAPacedSheetFollowTheStimulus) {
+  Scene scene;
+  scene.grid = {5, 7, 0.6};
+  scene.time.t_end = 200;
+  scene.stimuli = {{.period = 40, .duration = 1, .amplitude = 0.5, .count = -1}};
+  scene.output.probes = {{0, 0}, {4, 3}};
+  scene.output.period_from = 79;
+  const test::RecordedRun run = test::recorded_run(scene);
+  ASSERT_EQ(run.sink.beats.size(), 10);
+  for (std::size_t n = 0; n < 10; ++n) {
+    const auto& [probe, beat] = run.sink.beats[n];
+    EXPECT_EQ(probe, n % 2);
+    EXPECT_NEAR(beat.upstroke, 40 * static_cast<double>(n / 2) + 1, 0.5);
+    EXPECT_GT(beat.apd, beat.apd90) << "it begins earlier";
+    if (n < 8) {
+      EXPECT_NEAR(beat.di + beat.apd90, beat.period, 1e-12);
+    }
+  }
+  EXPECT_EQ(run.summary.observables.period.n, 4);
+  EXPECT_NEAR(run.summary.observables.period.mean, 40, 0.01);
+  EXPECT_EQ(run.summary.observables.apd90.n, 6) << "the last have ended, and nothing has begun after them";
+}
+
 }  // namespace
 }  // namespace myowave

@@ -28,6 +28,7 @@ struct RecordingSink : solver::OutputSink {
   bool keep_fields = false;
   std::vector<ProbeSample> probe_samples;
   std::vector<TipSample> tip_samples;
+  std::vector<solver::ProbeBeat> beats;
   std::vector<Area> areas;
   std::vector<ElementAreas> element_area_samples;
   std::vector<double> V, r, Ta, nodes;  // of the last frame
@@ -38,6 +39,7 @@ struct RecordingSink : solver::OutputSink {
   void tips(double t, std::span<const solver::Tip> found) override {
     tip_samples.push_back({t, {found.begin(), found.end()}});
   }
+  void beat(const solver::ProbeBeat& beat) override { beats.push_back(beat); }
   void area(double t, double total, double min, double max) override {
     areas.push_back({t, total, min, max});
   }

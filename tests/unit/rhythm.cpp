@@ -119,12 +119,18 @@ struct SinePulses {
   double fall(std::size_t n, double level) const { return width[n % width.size()] - rise(n, level); }
 };
 
-std::vector<Beat> beats_of(const SinePulses& pulses, double t_end) {
-  std::vector<Beat> beats;
-  BeatRecorder recorder(1, 0, [&](std::size_t, const Beat& beat) { beats.push_back(beat); });
-  for (int n = 0; n * dt < t_end; ++n) recorder.add(n * dt, std::array{pulses.V(n * dt)});
+// Of the only probe.
+std::vector<Beat> finished(BeatRecorder& recorder) {
   recorder.finish();
+  std::vector<Beat> beats;
+  for (const auto& [probe, beat] : recorder.take()) beats.push_back(beat);
   return beats;
+}
+
+std::vector<Beat> beats_of(const SinePulses& pulses, double t_end) {
+  BeatRecorder recorder(1, 0);
+  for (int n = 0; n * dt < t_end; ++n) recorder.add(n * dt, std::array{pulses.V(n * dt)});
+  return finished(recorder);
 }
 
 TEST(BeatRecorder, TellsTheDurationsOfKnownPulses) {
@@ -161,10 +167,9 @@ TEST(BeatRecorder, MeansAndSpreadOfAlternans) {
 
 // V at rest need not be 0: the amplitude is of the beat itself, V > 0.1 is not.
 TEST(BeatRecorder, AmplitudeIsFromTheLowestVoltageBefore) {
-  std::vector<Beat> beats;
-  BeatRecorder recorder(1, 0, [&](std::size_t, const Beat& beat) { beats.push_back(beat); });
+  BeatRecorder recorder(1, 0);
   add_trace(recorder, {0.15, 0.15, 1.15, 0.15, 0.15, 1.15, 0.05, 1});
-  recorder.finish();
+  const auto beats = finished(recorder);
   ASSERT_EQ(beats.size(), 3);
   EXPECT_NEAR(beats[0].upstroke, 1.35, 1e-14);
   EXPECT_NEAR(beats[0].apd90, 2.9 - 1.35, 1e-14) << "to 0.15 + 0.1";
@@ -175,13 +180,18 @@ TEST(BeatRecorder, AmplitudeIsFromTheLowestVoltageBefore) {
 }
 
 TEST(BeatRecorder, BeatsComeWithTheirProbe) {
-  std::vector<std::size_t> probes;
-  BeatRecorder recorder(2, 0, [&](std::size_t probe, const Beat&) { probes.push_back(probe); });
+  BeatRecorder recorder(2, 0);
   double t = 0;
   for (const double V : {0.0, 1.0, 0.0, 1.0}) recorder.add(t++, std::array{0.0, V});
-  EXPECT_EQ(probes, (std::vector<std::size_t>{1}));
+  const auto complete = recorder.take();
+  ASSERT_EQ(complete.size(), 1);
+  EXPECT_EQ(complete[0].probe, 1);
+  EXPECT_EQ(complete[0].beat.period, 2);
+  EXPECT_TRUE(recorder.take().empty()) << "each is taken once";
   recorder.finish();
-  EXPECT_EQ(probes, (std::vector<std::size_t>{1, 1}));
+  const auto last = recorder.take();
+  ASSERT_EQ(last.size(), 1);
+  EXPECT_EQ(last[0].beat.upstroke, 2.5);
 }
 
 }  // namespace

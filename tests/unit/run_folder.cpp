@@ -108,6 +108,15 @@ TEST(RunFolder, TensionThatIsNotComputedLeavesItsCellsEmpty) {
   EXPECT_THAT(read_text(folder / "out/fields.xdmf"), testing::Not(HasSubstr("Ta")));
 }
 
+TEST(RunFolder, WhatIsNotKnownOfABeatIsEmpty) {
+  const TemporaryFolder folder;
+  RunFolder run(folder / "out", scene_of(11, false, false, false), false, true);
+  run.beat({2, {.upstroke = 0.5, .period = 30, .apd = 21, .apd90 = 20.5, .di = 9.5}});
+  run.beat({0, {.upstroke = 1.25}});
+  EXPECT_EQ(read_text(folder / "out/beats.csv"),
+            "probe,upstroke_tu,period_tu,apd_tu,apd90_tu,di_tu\n2,0.5,30,21,20.5,9.5\n0,1.25,,,,\n");
+}
+
 TEST(RunFolder, AreasOfElementsAreThereWhereTheSceneAsksForThem) {
   const TemporaryFolder folder;
   auto scene = scene_of(21, true, false, false);
@@ -207,6 +216,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
   summary.largest_substeps = 2;
   summary.warnings = {"steps were taken in parts"};
   summary.observables.period = {26.5, 0.25, 7};
+  summary.observables.apd90 = {20.5, 0.5, 8};
   summary.observables.tips = {1.5, 0.5, 100};
   summary.observables.breakup_tu = 42;
   summary.observables.area = {0.8, 1.1};
@@ -228,6 +238,9 @@ TEST(Summary, HasTheKeysOfTheContract) {
     EXPECT_TRUE(json["mechanics"][key].is_number()) << key;
   }
   EXPECT_EQ(json["observables"]["period"], (nlohmann::ordered_json{{"mean", 26.5}, {"sd", 0.25}, {"n", 7}}));
+  EXPECT_EQ(json["observables"]["apd90"], (nlohmann::ordered_json{{"mean", 20.5}, {"sd", 0.5}, {"n", 8}}));
+  EXPECT_EQ(json["observables"]["apd"],
+            (nlohmann::ordered_json{{"mean", nullptr}, {"sd", nullptr}, {"n", 0}}));
   EXPECT_EQ(json["observables"]["tips"], (nlohmann::ordered_json{{"mean", 1.5}, {"sd", 0.5}}));
   EXPECT_EQ(json["observables"]["breakup_tu"], 42);
   EXPECT_TRUE(json["observables"]["death_tu"].is_null());
