@@ -6,10 +6,6 @@
 
 namespace myowave::solver {
 
-MeanSd RunningStatistics::result() const {
-  return {mean_, n_ > 1 ? std::sqrt(sum_of_squares_ / static_cast<double>(n_ - 1)) : 0.0, n_};
-}
-
 std::optional<Beat> BeatDetector::add(double t, double V) {
   std::optional<Beat> complete;
   const auto crossing = [&](double level) { return t_ + (t - t_) * (level - V_) / (V - V_); };

@@ -9,24 +9,9 @@
 #include <vector>
 
 #include "solver/run.hpp"
+#include "solver/statistics.hpp"
 
 namespace myowave::solver {
-
-// Mean and sample standard deviation, accumulated without storing the samples (Welford).
-class RunningStatistics {
- public:
-  void add(double value) {
-    ++n_;
-    const double delta = value - mean_;
-    mean_ += delta / static_cast<double>(n_);
-    sum_of_squares_ += delta * (value - mean_);
-  }
-  MeanSd result() const;
-
- private:
-  std::int64_t n_ = 0;
-  double mean_ = 0, sum_of_squares_ = 0;
-};
 
 // The action potentials at one point, from V in time order. Every crossing is interpolated linearly.
 class BeatDetector {

@@ -11,6 +11,7 @@
 
 #include "solver/plan.hpp"
 #include "solver/scene.hpp"
+#include "solver/statistics.hpp"
 
 namespace myowave::solver {
 
@@ -96,11 +97,6 @@ struct MechanicsStatistics {
   std::int64_t newton_iterations = 0, newton_max = 0, factorizations = 0, shifts = 0;
   std::int64_t not_elliptic = 0;  // solves with a Gauss point where ellipticity is lost
   double min_J = 1;               // smallest at any corner of any element over all accepted solutions
-};
-
-struct MeanSd {
-  double mean = 0, sd = 0;
-  std::int64_t n = 0;
 };
 
 struct Observables {

@@ -12,25 +12,6 @@ namespace {
 
 constexpr double dt = 0.02;
 
-TEST(RunningStatistics, MeanAndSampleDeviationOfAHandCase) {
-  RunningStatistics s;
-  EXPECT_EQ(s.result().n, 0);
-  s.add(3);
-  EXPECT_EQ(s.result().n, 1);
-  EXPECT_EQ(s.result().mean, 3);
-  EXPECT_EQ(s.result().sd, 0);
-  for (const double value : {5.0, 7.0, 9.0}) s.add(value);
-  EXPECT_EQ(s.result().n, 4);
-  EXPECT_DOUBLE_EQ(s.result().mean, 6);
-  EXPECT_DOUBLE_EQ(s.result().sd, std::sqrt(20.0 / 3));
-}
-
-TEST(RunningStatistics, KeepsASmallSpreadOnALargeMean) {
-  RunningStatistics s;
-  for (int n = 0; n < 1000; ++n) s.add(1e9 + (n % 2));
-  EXPECT_NEAR(s.result().sd, 0.5 * std::sqrt(1000.0 / 999), 1e-9);
-}
-
 // V = 0.5 + 0.45 sin(2 pi t / period)
 void add_sine(BeatRecorder& meter, double period, double t_end) {
   for (int n = 0; n * dt < t_end; ++n) {
