@@ -50,6 +50,7 @@ class Trial final : public solver::OutputSink {
   void fields(const solver::Frame& frame) override { outputs_.fields(frame); }
   void probes(double t, std::span<const double> values) override { outputs_.probes(t, values); }
   void tips(double t, std::span<const solver::Tip> tips) override { outputs_.tips(t, tips); }
+  void trajectory(const solver::TipTrajectory& one) override { outputs_.trajectory(one); }
   void area(double t, double total, double min, double max) override { outputs_.area(t, total, min, max); }
   bool wants_fields() const override { return outputs_.wants_fields(); }
 

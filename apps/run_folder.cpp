@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // What an earlier run may have left. Nothing else in the folder is touched.
-constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5",
-                                "fields.xdmf",  "probes.csv",    "tips.csv",
+constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5",        "fields.xdmf",
+                                "probes.csv",   "tips.csv",      "trajectories.csv", "sources.csv",
                                 "beats.csv",    "area.csv",      "element_areas.csv"};
 
 bool is_frame(const fs::path& path) {
@@ -72,7 +72,11 @@ struct RunFolder::Impl {
       : folder(std::move(path)),
         shape(frame_shape(scene)),
         probes(folder / "probes.csv", probes_header(scene.output)),
-        tips(folder / "tips.csv", "t,x,y,charge\n"),
+        tips(folder / "tips.csv", "t,x,y,charge,trajectory\n"),
+        trajectories(folder / "trajectories.csv",
+                     "trajectory,charge,birth_tu,death_tu,born,ended,core_x,core_y,core_radius,drift_speed,"
+                     "drift_direction,boundary_tu\n"),
+        sources(folder / "sources.csv", "t,sources\n"),
         beats(folder / "beats.csv", "probe,upstroke_tu,period_tu,apd_tu,apd90_tu,di_tu\n"),
         area(folder / "area.csv", "t,area,area_min,area_max\n"),
         progress(scene.time.ms_per_tu, quiet) {
@@ -91,7 +95,7 @@ struct RunFolder::Impl {
 
   fs::path folder;
   FrameShape shape;
-  AppendedFile probes, tips, beats, area;
+  AppendedFile probes, tips, trajectories, sources, beats, area;
   std::optional<AppendedFile> element_areas;
   std::optional<FieldsFile> fields;
   std::optional<XdmfFile> xdmf;
@@ -163,8 +167,22 @@ void RunFolder::probes(double t, std::span<const double> values) {
 
 void RunFolder::tips(double t, std::span<const solver::Tip> tips) {
   std::string rows;
-  for (const auto& tip : tips) rows += fmt::format("{},{},{},{}\n", t, tip.x, tip.y, tip.charge);
+  for (const auto& tip : tips) {
+    const std::string number = tip.trajectory < 0 ? "" : fmt::format("{}", tip.trajectory);
+    rows += fmt::format("{},{},{},{},{}\n", t, tip.x, tip.y, tip.charge, number);
+  }
   impl_->tips.append(rows);
+  impl_->sources.append(fmt::format("{},{}\n", t, tips.size()));
+}
+
+void RunFolder::trajectory(const solver::TipTrajectory& one) {
+  const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; };
+  const std::string core =
+      one.core ? fmt::format("{},{},{}", one.core->x, one.core->y, one.core->radius) : ",,";
+  const std::string drift = one.drift ? fmt::format("{},{}", one.drift->speed, one.drift->direction) : ",";
+  impl_->trajectories.append(fmt::format("{},{},{},{},{},{},{},{},{}\n", one.number, one.charge, one.birth,
+                                         one.death, event_name(one.born, "start"),
+                                         event_name(one.ended, "end"), core, drift, cell(one.boundary)));
 }
 
 void RunFolder::beat(const solver::ProbeBeat& one) {

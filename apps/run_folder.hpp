@@ -29,6 +29,7 @@ class RunFolder final : public solver::OutputSink {
   void fields(const solver::Frame&) override;
   void probes(double t, std::span<const double>) override;
   void tips(double t, std::span<const solver::Tip>) override;
+  void trajectory(const solver::TipTrajectory&) override;
   void beat(const solver::ProbeBeat&) override;
   void area(double t, double total, double min, double max) override;
   void element_areas(double t, std::span<const double>) override;

@@ -291,7 +291,8 @@ std::vector<Section> make_schema() {
          "Around all waves, nodes whose V, r and Ta / k_Ta are this close to zero are left as they are. "
          "0: no bit of a result changes; 1e-12: the last digits. On hosts only."}}},
       {"output",
-       "What is written, besides summary.json, manifest.json, tips.csv, area.csv, probes.csv and beats.csv.",
+       "What is written, besides summary.json, manifest.json, tips.csv, trajectories.csv, sources.csv, "
+       "area.csv, probes.csv and beats.csv.",
        {{"every", "t.u.", output_every(),
          "Fields, frames and areas: at t = 0, its multiples and t_end. A multiple of dt.",
          "1, or the multiple of dt nearest to it"},

@@ -45,14 +45,71 @@ json plan(const solver::Plan& all) {
   return parts;
 }
 
+json tips(const solver::SeriesStatistics& tips, const std::optional<double>& correlation_tu) {
+  const bool any = tips.n > 1;
+  return {{"mean", mean(tips)},
+          {"sd", sd(tips)},
+          {"n", tips.n},
+          {"correlation_tu", number(correlation_tu)},
+          {"effective_n", any ? number(tips.effective_n) : json(nullptr)},
+          {"standard_error", any ? number(tips.standard_error) : json(nullptr)}};
+}
+
+json events(const std::array<std::int64_t, 4>& counts, const char* with_run) {
+  json result;
+  using enum solver::TipEvent;
+  for (const auto event : {run, pair, boundary, alone})
+    result[event_name(event, with_run)] = counts[static_cast<std::size_t>(event)];
+  return result;
+}
+
+json trajectories(const solver::TrajectoryCounts& counts) {
+  return {{"n", counts.n}, {"born", events(counts.born, "start")}, {"ended", events(counts.ended, "end")}};
+}
+
+// Of the longest trajectory.
+json core(const std::optional<solver::TipTrajectory>& longest) {
+  if (!longest || !longest->core) return nullptr;
+  const auto& [x, y, radius, rotations] = *longest->core;
+  const auto& drift = longest->drift;
+  return {{"trajectory", longest->number},
+          {"x", number(x)},
+          {"y", number(y)},
+          {"radius", number(radius)},
+          {"rotations", rotations},
+          {"drift_speed", drift ? number(drift->speed) : json(nullptr)},
+          {"drift_direction", drift ? number(drift->direction) : json(nullptr)},
+          {"boundary_tu", number(longest->boundary)}};
+}
+
 json observables(const solver::Observables& o) {
-  return {{"period", mean_sd_n(o.period)},      {"apd", mean_sd_n(o.apd)},
-          {"apd90", mean_sd_n(o.apd90)},        {"tips", {{"mean", mean(o.tips)}, {"sd", sd(o.tips)}}},
-          {"breakup_tu", number(o.breakup_tu)}, {"death_tu", number(o.death_tu)},
-          {"area", pair(o.area, "min", "max")}, {"shortening", pair(o.shortening, "max", "t")}};
+  return {{"period", mean_sd_n(o.period)},
+          {"apd", mean_sd_n(o.apd)},
+          {"apd90", mean_sd_n(o.apd90)},
+          {"tips", tips(o.tips, o.tips_correlation_tu)},
+          {"trajectories", trajectories(o.trajectories)},
+          {"core", core(o.longest_trajectory)},
+          {"breakup_tu", number(o.breakup_tu)},
+          {"death_tu", number(o.death_tu)},
+          {"area", pair(o.area, "min", "max")},
+          {"shortening", pair(o.shortening, "max", "t")}};
 }
 
 }  // namespace
+
+const char* event_name(solver::TipEvent event, const char* with_run) {
+  switch (event) {
+    case solver::TipEvent::run:
+      return with_run;
+    case solver::TipEvent::pair:
+      return "pair";
+    case solver::TipEvent::boundary:
+      return "boundary";
+    case solver::TipEvent::alone:
+      break;
+  }
+  return "alone";
+}
 
 json summary_json(const solver::RunSummary& summary, bool deforms,
                   const std::optional<std::string>& failure) {

@@ -9,6 +9,9 @@
 
 namespace myowave::apps {
 
+// What begins or ends a trajectory, as the files say it; `with_run`: of what the run begins or ends.
+const char* event_name(solver::TipEvent, const char* with_run);
+
 // Keys keep the order they are written in. null stands where there is nothing to tell; nan and inf
 // never appear. `deforms`: false leaves `mechanics` null.
 nlohmann::ordered_json summary_json(const solver::RunSummary&, bool deforms,

@@ -294,14 +294,26 @@ std::vector<double> Electromechanics<ExecutionSpace, Real>::element_area_ratios(
 
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::int64_t steps, int substeps) {
-  const Timer timer(phases_->excitation);
-  const double dt = scene_.time.dt / substeps;
   const std::int64_t count = steps * substeps;
   const auto probes = probe_nodes_.extent(0);
   if (probe_record_.device.extent(0) < static_cast<std::size_t>(count))
     probe_record_ = Mirrored<Record>("myowave::solver::probe_record", count, probes);
+  take_steps(first * substeps, count, scene_.time.dt / substeps);
+
+  const Timer timer(phases_->observe);
+  const auto history = first_rows(probe_record_.host, count);
+  Kokkos::deep_copy(space_, history, first_rows(probe_record_.device, count));
+  space_.fence("myowave::solver::advance");
+  probe_history_.resize(static_cast<std::size_t>(steps) * probes);
+  for (std::int64_t n = 0; n < steps; ++n)
+    for (std::size_t p = 0; p < probes; ++p) probe_history_[n * probes + p] = history(n * substeps, p);
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::take_steps(std::int64_t first, std::int64_t count, double dt) {
+  const Timer timer(phases_->excitation);
   const auto stimuli_at = [&](std::int64_t n) -> const auto& {
-    return schedule_.active(static_cast<double>(first * substeps + n) * dt);
+    return schedule_.active(static_cast<double>(first + n) * dt);
   };
   for (std::int64_t n = 0; n < count;) {
     std::int64_t quiet = n;  // up to here no stimulus comes in between
@@ -314,12 +326,7 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
       ++n;
     }
   }
-  const auto history = first_rows(probe_record_.host, count);
-  Kokkos::deep_copy(space_, history, first_rows(probe_record_.device, count));
-  space_.fence("myowave::solver::advance");
-  probe_history_.resize(static_cast<std::size_t>(steps) * probes);
-  for (std::int64_t n = 0; n < steps; ++n)
-    for (std::size_t p = 0; p < probes; ++p) probe_history_[n * probes + p] = history(n * substeps, p);
+  space_.fence("myowave::solver::take_steps");
 }
 
 template <class ExecutionSpace, class Real>

@@ -106,6 +106,8 @@ class Electromechanics {
   void begin_mechanics(double t);
   void add_to_statistics(const SolveReport&);
   bool take_nodes();  // of the solve; true where one has moved
+  // So many steps of this dt, the first at first * dt.
+  void take_steps(std::int64_t first, std::int64_t count, double dt);
   // Steps without a stimulus, or one with those given; n is the row of the probes' record.
   void tiled_steps(int n, int count, double dt);
   void single_step(int n, const std::vector<tissue::ActiveStimulus>&, double dt);

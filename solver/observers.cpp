@@ -7,10 +7,16 @@ namespace myowave::solver {
 Observers::Observers(const Scene& scene)
     : scene_(scene),
       beats_(scene.output.probes.size(), scene.output.period_from),
-      breakup_(scene.initial.type == InitialSettings::Type::broken_front &&
+      settled_(scene.initial.type == InitialSettings::Type::broken_front &&
                        scene.initial.preconditions.empty()
                    ? BreakupWatch::settling_time
-                   : 0) {}
+                   : 0),
+      breakup_(settled_),
+      trajectories_(scene) {}
+
+void Observers::link(double t, std::span<Tip> tips) {
+  if (t >= settled_) trajectories_.look(t, tips);
+}
 
 void Observers::add_probe_history(std::int64_t first, std::span<const double> history) {
   const std::size_t probes = scene_.output.probes.size();
@@ -24,7 +30,10 @@ void Observers::write(Observables& o, double t, double stimulus_period) const {
   o.period = beats_.period();
   o.apd = beats_.apd();
   o.apd90 = beats_.apd90();
-  o.tips = tips_.result();
+  o.tips = series_statistics(tip_counts_);
+  if (o.tips.correlation) o.tips_correlation_tu = *o.tips.correlation * scene_.output.tips_every;
+  o.trajectories = trajectories_.counts();
+  o.longest_trajectory = trajectories_.longest();
   o.breakup_tu = breakup_.breakup();
   o.death_tu = breakup_.death();
   if (areas_.empty()) return;

@@ -10,6 +10,7 @@
 #include "solver/rhythm.hpp"
 #include "solver/run.hpp"
 #include "solver/scene.hpp"
+#include "solver/tip_trajectory.hpp"
 
 namespace myowave::solver {
 
@@ -18,7 +19,12 @@ class Observers {
   // Keeps a reference to the scene.
   explicit Observers(const Scene&);
 
-  void add_tips(int count) { tips_.add(count); }
+  // Tips at t, in time order; gives them their trajectory, from the time on that the data have settled.
+  void link(double t, std::span<Tip> tips);
+  // Those that have ended since the last call.
+  std::vector<TipTrajectory> take_ended() { return trajectories_.take_ended(); }
+
+  void add_tips(std::size_t count) { tip_counts_.push_back(static_cast<double>(count)); }
   void watch(double t, int count, double largest_V, bool more_stimuli) {
     breakup_.look(t, count, largest_V, more_stimuli);
   }
@@ -29,7 +35,10 @@ class Observers {
   // Beats that are complete since the last call.
   std::vector<ProbeBeat> take_beats() { return beats_.take(); }
   // No more looks are to come.
-  void finish() { beats_.finish(); }
+  void finish() {
+    trajectories_.finish();
+    beats_.finish();
+  }
 
   void add_area(const AreaSample& area) { areas_.push_back(area); }
 
@@ -39,8 +48,10 @@ class Observers {
  private:
   const Scene& scene_;
   BeatRecorder beats_;
+  double settled_;  // t.u.
   BreakupWatch breakup_;
-  RunningStatistics tips_;
+  TipTrajectories trajectories_;
+  std::vector<double> tip_counts_;
   std::vector<AreaSample> areas_;  // one a solve
 };
 

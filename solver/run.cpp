@@ -113,7 +113,7 @@ class Stage {
       if (step_ == schedule_.last) break;
       const std::int64_t first = step_;
       step_to(sheet, schedule_.next(step_));
-      if (observed_) observers_.add_probe_history(first, sheet.probe_history());
+      if (observed_) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
       show_beats();
     }
     if (sheet.finish_mechanics(t())) observers_.add_area(sheet.area());
@@ -184,19 +184,12 @@ class Stage {
   }
 
   void sample(Sheet& sheet) {
-    const bool tips_due = schedule_.due(step_, schedule_.tips);
-    if (tips_due || step_ % schedule_.watch == 0) {
-      const auto activity = sheet.find_tips(t());
-      tips_ = static_cast<int>(activity.tips.size());
-      if (step_ % schedule_.watch == 0)
-        observers_.watch(t(), tips_, activity.largest_V, sheet.more_stimuli(t()));
-      if (tips_due) {
-        observers_.add_tips(tips_);
-        output([&] { sink_.tips(t(), activity.tips); });
-      }
+    look_at_tips(sheet);
+    if (schedule_.due(step_, schedule_.probes) && !scene_.output.probes.empty()) {
+      std::vector<double> values;
+      observe([&] { values = sheet.probe_values(); });
+      output([&] { sink_.probes(t(), values); });
     }
-    if (schedule_.due(step_, schedule_.probes) && !scene_.output.probes.empty())
-      output([&] { sink_.probes(t(), sheet.probe_values()); });
     if (!schedule_.fields_due(step_)) return;
     output([&] {
       if (sheet.deforms()) {
@@ -212,6 +205,25 @@ class Stage {
     for (const auto& beat : observers_.take_beats()) output([&] { sink_.beat(beat); });
   }
 
+  void look_at_tips(Sheet& sheet) {
+    const bool watched = step_ % schedule_.watch == 0;
+    if (!watched && !schedule_.due(step_, schedule_.tips)) return;
+    auto activity = sheet.find_tips(t());
+    tips_ = static_cast<int>(activity.tips.size());
+    observe([&] {
+      observers_.link(t(), activity.tips);
+      if (watched) observers_.watch(t(), tips_, activity.largest_V, sheet.more_stimuli(t()));
+    });
+    show_ended_trajectories();
+    if (!schedule_.due(step_, schedule_.tips)) return;
+    observers_.add_tips(activity.tips.size());
+    output([&] { sink_.tips(t(), activity.tips); });
+  }
+
+  void show_ended_trajectories() {
+    for (const auto& ended : observers_.take_ended()) output([&] { sink_.trajectory(ended); });
+  }
+
   void write_fields(const Sheet& sheet) {
     const InitialState state = sheet.download();
     const std::vector<double> nodes = sheet.download_nodes();
@@ -221,10 +233,18 @@ class Stage {
   }
 
   template <class Action>
+  void observe(const Action& action) {
+    add_time_of(action, summary_.phases.observe);
+  }
+  template <class Action>
   void output(const Action& action) {
+    add_time_of(action, summary_.phases.output);
+  }
+  template <class Action>
+  static void add_time_of(const Action& action, double& seconds) {
     const auto start = Clock::now();
     action();
-    summary_.phases.output += seconds_since(start);
+    seconds += seconds_since(start);
   }
 
   void report_progress() {
@@ -237,9 +257,10 @@ class Stage {
 
   // The summary first: it is to be told also where an output fails.
   void end(const Sheet& sheet) {
-    observers_.finish();
+    observe([&] { observers_.finish(); });
     update_summary(sheet);
     show_beats();
+    if (observed_) show_ended_trajectories();
   }
 
   void update_summary(const Sheet& sheet) {
@@ -247,7 +268,7 @@ class Stage {
     summary_.t = t();
     summary_.wall_s = seconds_since(start_);
     summary_.cell_steps_per_s = cell_steps_per_s();
-    observers_.write(summary_.observables, t(), sheet.stimulus_period());
+    observe([&] { observers_.write(summary_.observables, t(), sheet.stimulus_period()); });
     if (substepped_steps_ == 0) return;
     whole_.substepped_steps += substepped_steps_;
     whole_.largest_substeps = std::max<std::int64_t>(whole_.largest_substeps, largest_substeps_);

@@ -12,6 +12,7 @@
 #include "solver/plan.hpp"
 #include "solver/scene.hpp"
 #include "solver/statistics.hpp"
+#include "solver/tip_trajectory.hpp"
 
 namespace myowave::solver {
 
@@ -21,13 +22,6 @@ struct InitialState {
   int rows = 0;
   int columns = 0;
   std::vector<double> V, r, Ta;
-};
-
-// A phase singularity in material coordinates (length units), charge +1 counter-clockwise.
-struct Tip {
-  double x = 0;
-  double y = 0;
-  int charge = 0;
 };
 
 // Host copies of what is shown at time t; valid only during the call.
@@ -76,6 +70,8 @@ class OutputSink {
   virtual void tips(double /*t*/, std::span<const Tip>) {}
   // Once the upstroke after it has come, those that the run ends at its end.
   virtual void beat(const ProbeBeat&) {}
+  // Once a trajectory has ended, those that the run ends at its end.
+  virtual void trajectory(const TipTrajectory&) {}
   // Relative to the loaded rest state: whole sheet, smallest and largest element.
   virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
   // Likewise, of each element I (element columns) + J; only where the scene asks for them.
@@ -102,7 +98,10 @@ struct MechanicsStatistics {
 struct Observables {
   // Of the beats at probes, t.u.: to the next upstroke, V > 0.1, and to 90 % repolarisation.
   MeanSd period, apd, apd90;
-  MeanSd tips;
+  SeriesStatistics tips;  // number of them at output.tips_every
+  std::optional<double> tips_correlation_tu;
+  TrajectoryCounts trajectories;
+  std::optional<TipTrajectory> longest_trajectory;
   std::optional<double> breakup_tu, death_tu;
   std::optional<std::pair<double, double>> area;        // min, max
   std::optional<std::pair<double, double>> shortening;  // largest, at t

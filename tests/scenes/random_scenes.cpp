@@ -26,7 +26,7 @@ using ::testing::Not;
 
 // Every file that the scene asks for is there, and no table holds what is no number.
 void expect_files(const solver::Scene& scene, const std::filesystem::path& out) {
-  for (const char* name : {"tips.csv", "probes.csv", "area.csv"})
+  for (const char* name : {"tips.csv", "trajectories.csv", "sources.csv", "probes.csv", "area.csv"})
     EXPECT_THAT(read_text(out / name), Not(ContainsRegex("nan|inf|NaN"))) << name;
   EXPECT_EQ(std::filesystem::exists(out / "fields.h5"), scene.output.fields);
   EXPECT_EQ(std::filesystem::exists(out / "frames/frame_00000.png"), scene.output.frames);

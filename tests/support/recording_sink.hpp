@@ -28,9 +28,11 @@ struct RecordingSink : solver::OutputSink {
   bool keep_fields = false;
   std::vector<ProbeSample> probe_samples;
   std::vector<TipSample> tip_samples;
+  std::vector<solver::TipTrajectory> trajectories;
   std::vector<solver::ProbeBeat> beats;
   std::vector<Area> areas;
   std::vector<ElementAreas> element_area_samples;
+  double last_frame_t = -1;
   std::vector<double> V, r, Ta, nodes;  // of the last frame
 
   void probes(double t, std::span<const double> values) override {
@@ -39,11 +41,13 @@ struct RecordingSink : solver::OutputSink {
   void tips(double t, std::span<const solver::Tip> found) override {
     tip_samples.push_back({t, {found.begin(), found.end()}});
   }
+  void trajectory(const solver::TipTrajectory& ended) override { trajectories.push_back(ended); }
   void beat(const solver::ProbeBeat& beat) override { beats.push_back(beat); }
   void area(double t, double total, double min, double max) override {
     areas.push_back({t, total, min, max});
   }
   void fields(const solver::Frame& frame) override {
+    last_frame_t = frame.t;
     V.assign(frame.V.begin(), frame.V.end());
     r.assign(frame.r.begin(), frame.r.end());
     Ta.assign(frame.Ta.begin(), frame.Ta.end());

@@ -57,10 +57,11 @@ TEST(RunFolder, HoldsAllFilesOfARun) {
     for (const double t : {0.0, 0.1, 1.0 / 3}) {
       run.fields(frames.at(t));
       run.probes(t, std::vector<double>(12, t));
-      const std::vector<solver::Tip> tips{{1.5, t, 1}, {2, 3, -1}};
+      const std::vector<solver::Tip> tips{{1.5, t, 1, 7}, {2, 3, -1}};
       run.tips(t, tips);
       run.area(t, 1, 0.9, 1.1);
     }
+    run.tips(0.5, {});
     run.write_summary({}, std::nullopt);
   }
   EXPECT_EQ(read_text(folder / "a/b/probes.csv"),
@@ -70,7 +71,9 @@ TEST(RunFolder, HoldsAllFilesOfARun) {
             "0.3333333333333333,0.3333333333333333,0.3333333333333333,0.3333333333333333,0.3333333333333333,"
             "0.3333333333333333,0.3333333333333333,0.3333333333333333,0.3333333333333333,0.3333333333333333,"
             "0.3333333333333333,0.3333333333333333,0.3333333333333333\n");
-  EXPECT_THAT(read_text(folder / "a/b/tips.csv"), HasSubstr("t,x,y,charge\n0,1.5,0,1\n0,2,3,-1\n"));
+  EXPECT_THAT(read_text(folder / "a/b/tips.csv"),
+              HasSubstr("t,x,y,charge,trajectory\n0,1.5,0,1,7\n0,2,3,-1,\n"));
+  EXPECT_EQ(read_text(folder / "a/b/sources.csv"), "t,sources\n0,2\n0.1,2\n0.3333333333333333,2\n0.5,0\n");
   EXPECT_THAT(read_text(folder / "a/b/area.csv"), HasSubstr("t,area,area_min,area_max\n0,1,0.9,1.1\n"));
   EXPECT_THAT(read_text(folder / "a/b/fields.xdmf"), HasSubstr("</Xdmf>"));
   EXPECT_EQ(read_state(folder / "a/b/fields.h5", 21, 21, std::nullopt).V.size(), 441u);
@@ -91,6 +94,39 @@ TEST(RunFolder, RowsAreOnDiskAtOnce) {
   EXPECT_THAT(read_text(folder / "out/probes.csv"), testing::EndsWith("\n0.5,1,2,3\n"));
   EXPECT_FALSE(fs::exists(folder / "out/fields.h5"));
   EXPECT_FALSE(fs::exists(folder / "out/frames"));
+}
+
+TEST(RunFolder, ATrajectoryIsARow) {
+  const TemporaryFolder folder;
+  RunFolder run(folder / "out", scene_of(11, false, false, false), false, true);
+  solver::TipTrajectory one{.number = 3,
+                            .charge = -1,
+                            .birth = 0.5,
+                            .death = 40,
+                            .born = solver::TipEvent::pair,
+                            .ended = solver::TipEvent::run,
+                            .core = solver::TipCore{10, 20, 1.5, 4},
+                            .drift = solver::TipDrift{0.25, -1},
+                            .boundary = 12};
+  run.trajectory(one);
+  run.trajectory({.number = 4,
+                  .charge = 1,
+                  .birth = 0,
+                  .death = 1,
+                  .born = solver::TipEvent::run,
+                  .ended = solver::TipEvent::boundary,
+                  .core = {},
+                  .drift = {},
+                  .boundary = {}});
+  one.born = one.ended = solver::TipEvent::alone;
+  one.drift.reset();
+  run.trajectory(one);
+  EXPECT_EQ(read_text(folder / "out/trajectories.csv"),
+            "trajectory,charge,birth_tu,death_tu,born,ended,core_x,core_y,core_radius,drift_speed,"
+            "drift_direction,boundary_tu\n"
+            "3,-1,0.5,40,pair,end,10,20,1.5,0.25,-1,12\n"
+            "4,1,0,1,start,boundary,,,,,,\n"
+            "3,-1,0.5,40,alone,alone,10,20,1.5,,,12\n");
 }
 
 TEST(RunFolder, TensionThatIsNotComputedLeavesItsCellsEmpty) {
@@ -217,7 +253,13 @@ TEST(Summary, HasTheKeysOfTheContract) {
   summary.warnings = {"steps were taken in parts"};
   summary.observables.period = {26.5, 0.25, 7};
   summary.observables.apd90 = {20.5, 0.5, 8};
-  summary.observables.tips = {1.5, 0.5, 100};
+  summary.observables.tips = {{1.5, 0.5, 100}, 7.5, 25, 0.1};
+  summary.observables.tips_correlation_tu = 30;
+  summary.observables.trajectories = {6, {1, 4, 0, 1}, {2, 4, 0, 0}};
+  auto& longest = summary.observables.longest_trajectory.emplace();
+  longest.number = 3;
+  longest.core = {10, 20, 1.5, 4};
+  longest.drift = {0.25, -1};
   summary.observables.breakup_tu = 42;
   summary.observables.area = {0.8, 1.1};
   summary.observables.shortening = {0.25, 33};
@@ -241,7 +283,25 @@ TEST(Summary, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["observables"]["apd90"], (nlohmann::ordered_json{{"mean", 20.5}, {"sd", 0.5}, {"n", 8}}));
   EXPECT_EQ(json["observables"]["apd"],
             (nlohmann::ordered_json{{"mean", nullptr}, {"sd", nullptr}, {"n", 0}}));
-  EXPECT_EQ(json["observables"]["tips"], (nlohmann::ordered_json{{"mean", 1.5}, {"sd", 0.5}}));
+  EXPECT_EQ(json["observables"]["tips"], (nlohmann::ordered_json{{"mean", 1.5},
+                                                                 {"sd", 0.5},
+                                                                 {"n", 100},
+                                                                 {"correlation_tu", 30},
+                                                                 {"effective_n", 25},
+                                                                 {"standard_error", 0.1}}));
+  EXPECT_EQ(json["observables"]["trajectories"]["n"], 6);
+  EXPECT_EQ(json["observables"]["trajectories"]["born"],
+            (nlohmann::ordered_json{{"start", 1}, {"pair", 4}, {"boundary", 0}, {"alone", 1}}));
+  EXPECT_EQ(json["observables"]["trajectories"]["ended"],
+            (nlohmann::ordered_json{{"end", 2}, {"pair", 4}, {"boundary", 0}, {"alone", 0}}));
+  EXPECT_EQ(json["observables"]["core"], (nlohmann::ordered_json{{"trajectory", 3},
+                                                                 {"x", 10},
+                                                                 {"y", 20},
+                                                                 {"radius", 1.5},
+                                                                 {"rotations", 4},
+                                                                 {"drift_speed", 0.25},
+                                                                 {"drift_direction", -1},
+                                                                 {"boundary_tu", nullptr}}));
   EXPECT_EQ(json["observables"]["breakup_tu"], 42);
   EXPECT_TRUE(json["observables"]["death_tu"].is_null());
   EXPECT_EQ(json["observables"]["area"], (nlohmann::ordered_json{{"min", 0.8}, {"max", 1.1}}));
@@ -254,7 +314,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
 TEST(Summary, HasNullWhereThereIsNothing) {
   solver::RunSummary summary;
   summary.observables.period = {std::nan(""), std::nan(""), 0};
-  summary.observables.tips = {1, std::nan(""), 1};
+  summary.observables.tips = {{1, std::nan(""), 1}, {}};
   summary.cell_steps_per_s = std::numeric_limits<double>::infinity();
   const auto json = summary_json(summary, false, "V is nan at t = 3");
   EXPECT_TRUE(json["mechanics"].is_null());
@@ -262,7 +322,10 @@ TEST(Summary, HasNullWhereThereIsNothing) {
   EXPECT_TRUE(json["observables"]["period"]["mean"].is_null());
   EXPECT_EQ(json["observables"]["period"]["n"], 0);
   EXPECT_EQ(json["observables"]["tips"]["mean"], 1);
-  EXPECT_TRUE(json["observables"]["tips"]["sd"].is_null());
+  for (const char* key : {"sd", "correlation_tu", "effective_n", "standard_error"})
+    EXPECT_TRUE(json["observables"]["tips"][key].is_null()) << key;
+  EXPECT_EQ(json["observables"]["trajectories"]["n"], 0);
+  EXPECT_TRUE(json["observables"]["core"].is_null());
   EXPECT_TRUE(json["observables"]["area"].is_null());
   EXPECT_TRUE(json["observables"]["shortening"].is_null());
   EXPECT_EQ(json["failure"], "V is nan at t = 3");
