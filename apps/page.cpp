@@ -7,6 +7,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "apps/embedded_files.hpp"
+
 namespace myowave::apps {
 namespace {
 
@@ -89,6 +91,30 @@ std::string data_uri(const std::filesystem::path& image) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const char* type = image.extension() == ".svg" ? "image/svg+xml" : "image/png";
   return fmt::format("data:{};base64,{}", type, base64(bytes));
+}
+
+std::string html_page(std::string_view title, std::string_view body, std::string_view scripts) {
+  return fmt::format(R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:">
+<link rel="icon" href="data:,">
+<title>{}</title>
+<style>
+{}</style>
+</head>
+<body>
+<main>
+{}
+</main>
+{}
+</body>
+</html>
+)",
+                     html_escape(title), embedded_file("page.css"), body, scripts);
 }
 
 }  // namespace myowave::apps

@@ -1,4 +1,4 @@
-// Text and images for pages that hold all they show in the one file.
+// Self-contained HTML pages: everything that they show stands in the one file.
 #pragma once
 
 #include <filesystem>
@@ -19,5 +19,10 @@ std::string base64(std::string_view bytes);
 // "data:image/png;base64,..." or, of .svg, "data:image/svg+xml;base64,...".
 // Errors: std::runtime_error "cannot read FILE".
 std::string data_uri(const std::filesystem::path& image);
+
+// A whole page: head with the shared style (dark mode, print, small screens), title, body. `scripts`:
+// elements that go before </body>. Its content policy keeps a browser from loading anything outside of the
+// file: images are data URIs.
+std::string html_page(std::string_view title, std::string_view body, std::string_view scripts = {});
 
 }  // namespace myowave::apps
