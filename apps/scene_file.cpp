@@ -326,6 +326,26 @@ class SceneReader {
     return true;
   }
 
+  bool set(const Choices& kind, const toml::node& node, const std::string& path, Target& target) {
+    const auto* array = node.as_array();
+    if (array == nullptr) return false;
+    std::vector<bool> chosen(kind.names.size());
+    for (const toml::node& element : *array) {
+      const auto name = element.value_exact<std::string_view>();
+      const auto found = name ? std::ranges::find(kind.names, *name) : kind.names.end();
+      const bool known = found != kind.names.end();
+      if (known && !chosen[found - kind.names.begin()]) {
+        chosen[found - kind.names.begin()] = true;
+        continue;
+      }
+      bad(path, element, fmt::format("a {}, each at most once", type_text(kind)),
+          name && !known ? hint(did_you_mean(*name, kind.names)) : "");
+      return false;
+    }
+    kind.set(target, chosen);
+    return true;
+  }
+
   bool set(const Path& kind, const toml::node& node, const std::string&, Target& target) {
     const auto value = node.value_exact<std::string>();
     if (!value || value->empty()) return false;

@@ -87,6 +87,17 @@ Choice tension_law() {
   return law;
 }
 
+Choices stop_on() {
+  return {{"breakup", "death"},
+          [](const Target& target) {
+            const solver::StopOn& on = target.scene.time.stop_on;
+            return std::vector<bool>{on.breakup, on.death};
+          },
+          [](Target& target, const std::vector<bool>& on) {
+            target.scene.time.stop_on = {on[0], on[1]};
+          }};
+}
+
 Number tension_eps0() {
   const auto multiply_both = [](Target& target, double eps0) {
     target.tension.eps_below *= eps0;
@@ -137,7 +148,11 @@ std::vector<Section> make_schema() {
          "Explicit Euler step. A run refuses a step past the stability bound of its metric."},
         {"t_end", "t.u.", number(MYOWAVE_AT(scene.time.t_end), not_negative), "End of the run."},
         {"ms_per_tu", "ms", number(MYOWAVE_AT(scene.time.ms_per_tu), positive),
-         "Milliseconds in one t.u., for display only."}}},
+         "Milliseconds in one t.u., for display only."},
+        {"stop_on", "", stop_on(),
+         "The run ends before t_end at the first of these: `breakup`, once it has lasted for 2 t.u.; `death` "
+         "of "
+         "all activity, with no stimulus to come."}}},
       {"excitation",
        "Aliev-Panfilov kinetics and diffusion (Eqs 22a, b; Table 1).",
        {{"a", "", number(MYOWAVE_AT(excitation.a), {.low = 0, .high = 1}), "Excitation threshold."},
@@ -341,6 +356,13 @@ nlohmann::json region_json(const solver::Stimulus& stimulus) {
 nlohmann::json value_of(const Key& key, const Target& target) {
   return std::visit(Overloaded{
                         [&](const Choice& kind) -> nlohmann::json { return kind.names[kind.get(target)]; },
+                        [&](const Choices& kind) -> nlohmann::json {
+                          nlohmann::json chosen = nlohmann::json::array();
+                          const auto flags = kind.get(target);
+                          for (std::size_t n = 0; n < flags.size(); ++n)
+                            if (flags[n]) chosen.push_back(kind.names[n]);
+                          return chosen;
+                        },
                         [&](const Size&) -> nlohmann::json {
                           return {target.scene.grid.rows, target.scene.grid.columns};
                         },
@@ -440,6 +462,7 @@ std::string type_text(const Kind& kind) {
           [](const Integer&) -> std::string { return "integer"; },
           [](const Flag&) -> std::string { return "true or false"; },
           [](const Choice& one) { return fmt::format("\"{}\"", fmt::join(one.names, "\" or \"")); },
+          [](const Choices& one) { return fmt::format("list of \"{}\"", fmt::join(one.names, "\", \"")); },
           [](const Path&) -> std::string { return "path"; },
           [](const Pair& one) { return fmt::format("{}, two integers", one.parts); },
           [](const Size&) -> std::string { return "integer or [rows, columns]"; },

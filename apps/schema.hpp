@@ -61,6 +61,12 @@ struct Choice {
   std::function<std::size_t(const Target&)> get;
   std::function<void(Target&, std::size_t)> set;
 };
+// A list of some of the names, each at most once; a flag a name.
+struct Choices {
+  std::vector<std::string_view> names;
+  std::function<std::vector<bool>(const Target&)> get;
+  std::function<void(Target&, const std::vector<bool>&)> set;
+};
 struct Path {
   std::function<std::string(const Target&)> get;
   std::function<void(Target&, const std::string&)> set;
@@ -81,7 +87,7 @@ struct Probes {};
 // "all", {center = [column, row], radius = R} or {columns = [a, b], rows = [a, b]}
 struct Region {};
 
-using Kind = std::variant<Number, Integer, Flag, Choice, Path, Pair, Size, Probes, Region>;
+using Kind = std::variant<Number, Integer, Flag, Choice, Choices, Path, Pair, Size, Probes, Region>;
 
 struct Key {
   std::string_view name;

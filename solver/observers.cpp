@@ -18,6 +18,11 @@ void Observers::link(double t, std::span<Tip> tips) {
   if (t >= settled_) trajectories_.look(t, tips);
 }
 
+bool Observers::wants_end() const {
+  const StopOn& on = scene_.time.stop_on;
+  return (on.breakup && breakup_.breakup()) || (on.death && breakup_.death());
+}
+
 void Observers::add_probe_history(std::int64_t first, std::span<const double> history) {
   const std::size_t probes = scene_.output.probes.size();
   if (probes == 0) return;

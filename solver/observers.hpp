@@ -28,6 +28,8 @@ class Observers {
   void watch(double t, int count, double largest_V, bool more_stimuli) {
     breakup_.look(t, count, largest_V, more_stimuli);
   }
+  // What the scene wants to end on has come.
+  bool wants_end() const;
 
   // V at the probes from step `first` on, all probes of a step together.
   void add_probe_history(std::int64_t first, std::span<const double> history);

@@ -155,7 +155,8 @@ void add_steps_and_sheets(Cases& cases) {
       const char* name = precision == Precision::float64 ? "float64" : "float32";
       ParameterCase& one = cases.one(fmt::format("time.dt in {}", name), fmt::format("{:g}", dt), false);
       one.scene.precision = precision;
-      one.scene.time = {.dt = dt, .t_end = 2e5 * dt};
+      one.scene.time.dt = dt;
+      one.scene.time.t_end = 2e5 * dt;
       one.scene.grid = {11, 11, 0.6};
       one.reference_dt = std::min(100 * dt, 0.0025);
     }

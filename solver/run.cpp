@@ -214,6 +214,10 @@ class Stage {
       observers_.link(t(), activity.tips);
       if (watched) observers_.watch(t(), tips_, activity.largest_V, sheet.more_stimuli(t()));
     });
+    if (watched && observers_.wants_end() && step_ != schedule_.last) {
+      require_no_fault(sheet.find_fault(t(), scene_.time.dt));  // as at any end
+      schedule_.last = step_;
+    }
     show_ended_trajectories();
     if (!schedule_.due(step_, schedule_.tips)) return;
     observers_.add_tips(activity.tips.size());

@@ -18,10 +18,16 @@ struct GridSettings {
   double dx = 0.6;    // node spacing, length units
 };
 
+// What ends a run before t_end, at the look that establishes it.
+struct StopOn {
+  bool breakup = false, death = false;
+};
+
 struct TimeSettings {
   double dt = 0.02;         // explicit Euler step, t.u.
   double t_end = 400;       // t.u.
   double ms_per_tu = 10.0;  // display only
+  StopOn stop_on{};
 };
 
 // Eqs 22a, b; Table 1 of the paper (b: see kernels/cell/aliev_panfilov.hpp).

@@ -75,6 +75,10 @@ struct WrongValues {
   }
   Values operator()(const apps::Flag&) const { return {"1", "0.0", "'true'", "[true]", "{}", "nan"}; }
   Values operator()(const apps::Choice&) const { return {"1", "true", "''", "'x'", "['rest']", "{}", "nan"}; }
+  Values operator()(const apps::Choices& kind) const {
+    const std::string first = fmt::format("'{}'", kind.names.front());
+    return {"1", "true", first, "[1]", "['x']", "[" + first + ", " + first + "]", "[[" + first + "]]", "{}"};
+  }
   Values operator()(const apps::Path&) const { return {"1", "true", "''", "['a']", "{}"}; }
   Values operator()(const apps::Pair& kind) const {
     Values values{"3", "true", "'a'", "[]", "[1]", "[1, 2, 3]", "[0.5, 1]", "['a', 1]", "[1, 2147483648]",

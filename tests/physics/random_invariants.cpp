@@ -182,6 +182,7 @@ TEST(RandomInvariants, DiffusionAloneKeepsItsSumAndLosesItsSquares) {
     scene.initial.r0 = 0;
     scene.initial.preconditions.clear();
     if (scene.metric == solver::MetricForm::expanded) scene.metric = solver::MetricForm::conservative;
+    scene.time.stop_on = {};
     if (scene.mechanics) scene.mechanics->interval = 1000;  // more steps than there are
     if (draw.chance(0.5)) scene.stimuli.clear();
     InitialState initial = initial_state(scene);

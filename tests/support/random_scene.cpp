@@ -36,11 +36,13 @@ class RandomScene {
     // below the bounds that are held against a run
     if (draw_.chance(0.2)) scene_.set("accuracy", "quiescent", draw_.chance(0.5) ? "0" : "1e-15");
     observation();
+    if (draw_.chance(0.3)) scene_.set("time", "stop_on", draw_.one_of(ends));
     return std::move(scene_);
   }
 
  private:
   inline static const std::vector<std::string> precisions{"'float32'", "'float64'"};
+  inline static const std::vector<std::string> ends{"[]", "['breakup']", "['death']", "['death', 'breakup']"};
   inline static const std::vector<std::string> metrics{"'none'", "'conservative'", "'conservative'",
                                                        "'expanded'"};
 

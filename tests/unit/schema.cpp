@@ -56,6 +56,7 @@ std::string other_value(const Key& key) {
   if (std::holds_alternative<apps::Number>(key.kind)) return key.name == "a" ? "0.25" : "1.25";
   if (std::holds_alternative<apps::Integer>(key.kind)) return "7";
   if (std::holds_alternative<apps::Pair>(key.kind)) return "[2,-3]";
+  if (std::holds_alternative<apps::Choices>(key.kind)) return "[\"death\"]";
   if (std::holds_alternative<apps::Probes>(key.kind)) return "[[1,2],[3,4]]";
   if (std::holds_alternative<apps::Region>(key.kind)) return "{center=[10,11],radius=2.5}";
   return "";
