@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Kokkos_Core.hpp>
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -12,11 +13,14 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
+#include <type_traits>
 
 #include "apps/estimate.hpp"
 #include "apps/initial_state.hpp"
 #include "apps/memory.hpp"
 #include "apps/progress_line.hpp"
+#include "apps/reproduce.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/schema.hpp"
@@ -195,6 +199,30 @@ void stability(const StabilityRequest& request) {
 std::string map_names() {
   std::string text = "Maps:\n";
   for (const auto& map : solver::stability_maps()) text += fmt::format("  {:<20}{}\n", map.name, map.doc);
+  return text;
+}
+
+void reproduce(const ReproduceRequest& request) {
+  const auto figures = choose_figures(request.figures);
+  constexpr bool on_host = std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (request.jobs < 0)
+    throw solver::InputError(fmt::format("--jobs must be at least 1, not {}", request.jobs));
+  std::string command = "myowave reproduce";
+  for (const auto& number : request.figures) command += ' ' + number;
+  if (request.figures.empty()) command += " all";
+  if (request.quick) command += " --quick";
+  reproduce(figures, request.quick ? Extent::quick : Extent::full, request.out,
+            request.jobs > 0 ? request.jobs
+            : on_host        ? cores
+                             : 1,
+            command);
+}
+
+std::string figure_names() {
+  std::string text = "Figures:\n";
+  for (const auto& recipe : figure_recipes())
+    text += fmt::format("  {:<10}{}\n", recipe.number, recipe.title);
   return text;
 }
 

@@ -39,6 +39,19 @@ void stability(const StabilityRequest&);
 // The names of all maps, a line each with what it shows.
 std::string map_names();
 
+struct ReproduceRequest {
+  std::vector<std::string> figures;  // numbers, or "all"
+  bool quick = false;
+  std::string out = "out/reproduce";  // relative to the working directory
+  int jobs = 0;                       // runs at once; 0: one a core, or one where a device computes
+};
+
+// Errors: InputError; NumericalFailure, after all that could be made is on disk, where a run failed.
+void reproduce(const ReproduceRequest&);
+
+// The numbers of all figures, a line each with what it shows.
+std::string figure_names();
+
 void info();
 
 }  // namespace myowave::apps

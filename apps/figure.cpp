@@ -1,8 +1,9 @@
 #include "apps/figure.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
-#include <optional>
+#include <utility>
 
 #include "apps/file_io.hpp"
 #include "apps/page.hpp"
@@ -27,6 +28,8 @@ std::string letter(std::size_t n) {
   return "(" + text + ")";
 }
 
+std::pair<int, int> size_of(const SheetPicture& sheet) { return {sheet.shape.rows, sheet.shape.columns}; }
+
 // Panels with their places on the page.
 class Layout {
  public:
@@ -35,18 +38,19 @@ class Layout {
     const bool headed =
         figure.panels.size() > 1 || (figure.panels.size() == 1 && !title_of(figure.panels[0]).empty());
     const double top = headed ? with_heading : without_heading;
-    std::optional<SheetExtent> extent;
+    std::map<std::pair<int, int>, SheetExtent> extents;  // of all sheets with so many rows and columns
     for (const Panel& panel : figure.panels)
-      if (const auto* sheet = std::get_if<SheetPicture>(&panel))
-        extent = extent ? joined(*extent, sheet_extent(*sheet)) : sheet_extent(*sheet);
+      if (const auto* sheet = std::get_if<SheetPicture>(&panel)) {
+        const auto [known, is_new] = extents.try_emplace(size_of(*sheet), sheet_extent(*sheet));
+        if (!is_new) known->second = joined(known->second, sheet_extent(*sheet));
+      }
     for (const Panel& panel : figure.panels) {
       if (const auto* plot = std::get_if<Plot>(&panel)) {
         panels_.push_back({std::make_unique<PlotPanel>(*plot, panel_width, top), nullptr, {}});
       } else {
+        const auto& sheet = std::get<SheetPicture>(panel);
         panels_.push_back(
-            {nullptr,
-             std::make_unique<SheetPanel>(std::get<SheetPicture>(panel), *extent, panel_width, top),
-             {}});
+            {nullptr, std::make_unique<SheetPanel>(sheet, extents.at(size_of(sheet)), panel_width, top), {}});
       }
     }
     place();

@@ -88,11 +88,24 @@ int main(int argc, char** argv) {
   stability->add_flag("--force", maps.force, "Write into a folder that already holds results");
   stability->footer(apps::map_names());
 
+  apps::ReproduceRequest figures;
+  CLI::App* reproduce = app.add_subcommand(
+      "reproduce",
+      "Make the paper's figures again: runs, data, pictures, and our numbers beside the paper's");
+  reproduce->add_option("FIGURE", figures.figures,
+                        "Numbers of figures; without one, or with `all`, all of them");
+  reproduce->add_flag("--quick", figures.quick, "The same from shorter and fewer runs");
+  reproduce
+      ->add_option("--out", figures.out, "Result folder; without it out/reproduce in the working directory")
+      ->type_name("DIR");
+  reproduce->add_option("--jobs", figures.jobs, "Runs at once; without it one a core")->type_name("J");
+  reproduce->footer(apps::figure_names());
+
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
   // CLI11 would only say that a subcommand is missing.
-  const std::vector<std::string_view> names{"run", "check", "describe", "stability", "info"};
+  const std::vector<std::string_view> names{"run", "check", "describe", "stability", "reproduce", "info"};
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
     const std::string meant = apps::did_you_mean(argv[1], names);
     fmt::print(stderr,
@@ -117,6 +130,7 @@ int main(int argc, char** argv) {
     if (check->parsed()) apps::check(request.scene, request.overrides);
     if (describe->parsed()) apps::describe(section, markdown);
     if (stability->parsed()) apps::stability(maps);
+    if (reproduce->parsed()) apps::reproduce(figures);
     if (info->parsed()) apps::info();
   });
 }

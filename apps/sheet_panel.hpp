@@ -16,7 +16,7 @@ SheetExtent joined(const SheetExtent&, const SheetExtent&);
 
 class SheetPanel {
  public:
-  // All sheets of a figure show the same part of the plane.
+  // All sheets of one size in a figure show the same part of the plane.
   SheetPanel(const SheetPicture&, const SheetExtent&, double width, double top);
 
   double height() const;

@@ -1,0 +1,71 @@
+// What the figures measure on the files of finished runs.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/figures/recipe.hpp"
+#include "apps/plot.hpp"
+#include "apps/run_results.hpp"
+#include "solver/run.hpp"
+
+namespace myowave::apps {
+
+// 1 t.u. of the paper's rescaled time: a spiral turns in 26.9 t.u., 269 ms.
+inline constexpr double ms_per_tu = 10;
+inline constexpr double rotation_tu = 26.9;
+inline constexpr double shipped_dx = 0.6;  // length units; of all scenes of apps/scenes
+inline constexpr double to_seconds(double tu) { return tu * ms_per_tu / 1000; }
+
+std::vector<double> in_seconds(std::vector<double> tu);
+std::vector<double> in_ms(std::vector<double> tu);
+
+solver::MeanSd mean_sd(std::span<const double>);
+
+// "26.85 +- 0.37"; one value: "26.85"; none: "-".
+std::string text_of(const solver::MeanSd&, int decimals);
+// "n = 144".
+std::string count_text(const solver::MeanSd&);
+// "+1.2 %" of the paper's number.
+std::string relative_difference(double ours, double papers);
+// What is said of a statement of the paper that holds here too, or does not.
+std::string verdict(bool holds);
+
+// Periods at one probe: each between two upstrokes, at the time of the first.
+struct ProbePeriods {
+  std::vector<double> t, period;  // t.u.
+};
+// Of each probe in beats.csv, upstrokes at `from` (t.u.) and later.
+std::vector<ProbePeriods> periods_of(const RunResults&, double from);
+// Of all probes in the order of time, so that what one probe and another see of the same wave stands
+// together.
+std::vector<double> all_periods(std::span<const ProbePeriods>);
+
+// A row of periods (ms) beside the paper's mean.
+Comparison period_row(std::string what, std::string paper, std::span<const double> periods_ms,
+                      double papers_mean);
+// A row of the difference of two series, a - b: the unpaired t-test that the paper uses, and one that knows
+// how many independent samples a series in the order of time has.
+Comparison test_row(std::string what, std::string paper, std::span<const double> a,
+                    std::span<const double> b);
+
+// The paths of all tips in material coordinates, a gap between one and the next.
+Series tip_paths(const RunResults&, std::string name);
+
+// When a tip first came within ten nodes of an edge, t.u.; NaN where none did.
+double time_at_edge(const RunResults&);
+
+// Mean speed of the core of the longest path, its tip averaged over each rotation from `from` to `to` (t.u.);
+// length units/t.u. NaN where there are less than two rotations between.
+double core_speed(const RunResults&, double from, double to);
+
+// The number that summary.json has under these names, NaN where it is null.
+double observable(const RunResults&, std::string_view name);
+double observable(const RunResults&, std::string_view name, std::string_view member);
+
+SheetPicture sheet_picture(const StoredFrame&, std::string title, SheetPicture::Shading);
+
+}  // namespace myowave::apps
