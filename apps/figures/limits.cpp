@@ -46,17 +46,24 @@ SceneText spiral_scene(Extent extent) {
       .set("output.tips_every", "0.5");
 }
 
-std::string size_name(int n, const Edges& edge, double mu1) {
-  return fmt::format("size_{}_{}_{}", n, edge.name, mu1);
+std::string size_name(int n, const Edges& edge, double mu1, int start) {
+  return fmt::format("size_{}_{}_{}_start{}", n, edge.name, mu1, start);
 }
 
-Job size_job(int n, const Edges& edge, double mu1, Extent extent) {
+// Starts are phases of a turn without contraction.
+void begin_at_phase(SceneText& scene, int start) {
+  const double turned = std::round(50 * rotation_tu * start / 3) / 50;
+  if (start > 0) scene.set("initial.precondition", fmt::format("[{{duration = {}}}]", turned));
+}
+
+Job size_job(int n, const Edges& edge, double mu1, int start, Extent extent) {
   SceneText scene = spiral_scene(extent);
   scene.set("grid.n", std::to_string(n))
       .set(edge.key, edge.value)
       .set("excitation.mu1", fmt::format("{}", mu1));
   if (mu1 == breakup_mu1) scene.set("time.stop_on", "[\"breakup\", \"death\"]");
-  return {size_name(n, edge, mu1), scene.text(), {}};
+  begin_at_phase(scene, start);
+  return {size_name(n, edge, mu1, start), scene.text(), {}};
 }
 
 std::string tension_name(const Tension& tension, int start) {
@@ -67,8 +74,7 @@ Job tension_job(const Tension& tension, int start, Extent extent) {
   SceneText scene = spiral_scene(extent);
   scene.set("tension.law", fmt::format("\"{}\"", tension.law))
       .set("mechanics.p", fmt::format("{:.1f}", tension.p));
-  const double turned = std::round(50 * rotation_tu * start / 3) / 50;
-  if (start > 0) scene.set("initial.precondition", fmt::format("[{{duration = {}}}]", turned));
+  begin_at_phase(scene, start);
   return {tension_name(tension, start), scene.text(), {}};
 }
 
@@ -84,48 +90,71 @@ std::vector<Job> sheet_size_jobs(Extent extent) {
   const auto sizes = sizes_of(extent);
   for (auto n = sizes.rbegin(); n != sizes.rend(); ++n)  // the longest first
     for (const Edges& edge : edges)
-      for (const double mu1 : {drift_mu1, breakup_mu1}) jobs.push_back(size_job(*n, edge, mu1, extent));
+      for (const double mu1 : {drift_mu1, breakup_mu1})
+        for (int start = 0; start < starts_of(extent); ++start)
+          jobs.push_back(size_job(*n, edge, mu1, start, extent));
   return jobs;
 }
 
+namespace {
+
+// What the starts of one size and edge do.
+struct SizeSeries {
+  Series at_edge, speed, breakup;
+  std::string text;  // of each size: how many came to the edge, how many broke up
+
+  explicit SizeSeries(const char* name)
+      : at_edge{.name = name, .mark = Mark::points}, speed(at_edge), breakup(at_edge) {}
+
+  void add(int n, const Runs& runs, const Edges& edge, Extent extent) {
+    int reached = 0, broke = 0;
+    for (int start = 0; start < starts_of(extent); ++start) {
+      const RunResults drifting = runs[size_name(n, edge, drift_mu1, start)],
+                       breaking = runs[size_name(n, edge, breakup_mu1, start)];
+      const bool whole = !std::isfinite(observable(drifting, "breakup_tu"));
+      const double tu = whole ? time_at_edge(drifting) : std::nan("");
+      reached += std::isfinite(tu) ? 1 : 0;
+      broke += whole ? 0 : 1;
+      for (Series* series : {&at_edge, &speed, &breakup}) series->x.push_back(n);
+      at_edge.y.push_back(to_seconds(tu));
+      speed.y.push_back(whole ? core_speed(drifting, 0, until_edge(drifting)) : std::nan(""));
+      breakup.y.push_back(to_seconds(observable(breaking, "breakup_tu")));
+    }
+    text += fmt::format("{}{}: {}/{}", text.empty() ? "" : ", ", n, reached, broke);
+  }
+};
+
+}  // namespace
+
 MadeFigure make_sheet_sizes(const Runs& runs, Extent extent) {
-  Plot at_edge{
-      .title = "Tip within ten nodes of the edge", .x = {"nodes a side", ""}, .y = {"time", "s", 0.0}},
-      speed{
-          .title = "Drift", .x = {"nodes a side", ""}, .y = {"speed of the core", "length units/t.u.", 0.0}},
+  const int starts = starts_of(extent);
+  Plot at_edge{.title = "Tip within ten nodes of the edge, mu1 = 0.12",
+               .x = {"nodes a side", ""},
+               .y = {"time", "s", 0.0}},
+      speed{.title = "Drift, mu1 = 0.12",
+            .x = {"nodes a side", ""},
+            .y = {"speed of the core", "length units/t.u.", 0.0}},
       breakup{.title = "First break-up, mu1 = 0.1", .x = {"nodes a side", ""}, .y = {"time", "s", 0.0}};
   MadeFigure made{
       .caption = fmt::format("A settled spiral on sheets of different size, rigid, with loaded and with "
-                             "fixed edges, over {:.0f} t.u.: when its tip comes to the edge and how "
-                             "fast its core moves (mu1 = 0.12), and when it breaks up (mu1 = 0.1). "
-                             "Points are missing where it did not happen.",
-                             duration(extent)),
+                             "fixed edges, over {:.0f} t.u., {} start(s) each: when its tip comes to "
+                             "the edge, how fast its core moves until then, and when it breaks up. "
+                             "A point is missing where it did not happen.",
+                             duration(extent), starts),
       .figure = {.columns = 3}};
   for (const Edges& edge : edges) {
-    Series reached{.name = edge.name, .mark = Mark::linked_points}, drift = reached, broken = reached;
-    std::string times;
-    for (const int n : sizes_of(extent)) {
-      const RunResults drifting = runs[size_name(n, edge, drift_mu1)],
-                       breaking = runs[size_name(n, edge, breakup_mu1)];
-      for (Series* series : {&reached, &drift, &broken}) series->x.push_back(n);
-      reached.y.push_back(to_seconds(time_at_edge(drifting)));
-      const bool whole = !std::isfinite(observable(drifting, "breakup_tu"));
-      drift.y.push_back(whole ? core_speed(drifting, 0, until_edge(drifting)) : std::nan(""));
-      broken.y.push_back(to_seconds(observable(breaking, "breakup_tu")));
-      const double tu = time_at_edge(drifting);
-      times += fmt::format("{}{}: {}", times.empty() ? "" : ", ", n,
-                           !whole              ? "breaks up"
-                           : std::isfinite(tu) ? fmt::format("{:.0f}", tu)
-                                               : "never");
-    }
-    at_edge.series.push_back(reached);
-    speed.series.push_back(drift);
-    breakup.series.push_back(broken);
+    SizeSeries series(edge.name);
+    for (const int n : sizes_of(extent)) series.add(n, runs, edge, extent);
+    at_edge.series.push_back(series.at_edge);
+    speed.series.push_back(series.speed);
+    breakup.series.push_back(series.breakup);
     made.rows.push_back(
-        {.what = fmt::format("tip at the edge by nodes a side, t.u.: {}", edge.name),
-         .paper = edge.name == std::string_view("load") ? "about 800 t.u., size not stated" : "",
-         .ours = times,
-         .samples = "1 start a size"});
+        {.what = fmt::format("{}: starts that came to the edge / broke up, by nodes a side", edge.name),
+         .paper = edge.name == std::string_view("rigid")  ? "none"
+                  : edge.name == std::string_view("load") ? "1 of 1 at the edge, size not stated"
+                                                          : "",
+         .ours = series.text,
+         .samples = fmt::format("{} start(s) a size", starts)});
   }
   made.figure.panels = {at_edge, speed, breakup};
   return made;
