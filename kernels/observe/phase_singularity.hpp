@@ -3,6 +3,9 @@
 // the largest V, by which the death of all activity is told.
 #pragma once
 
+#include <cstdint>
+
+#include "kernels/base/row_loop.hpp"
 #include "kernels/base/views.hpp"
 #include "kernels/tissue/grid.hpp"
 
@@ -64,22 +67,102 @@ KOKKOS_INLINE_FUNCTION Kokkos::pair<double, double> bilinear_root(const Corners&
   return {Kokkos::clamp(best.first, 0.0, 1.0), Kokkos::clamp(best.second, 0.0, 1.0)};
 }
 
-// Squares are looked at in blocks of so many columns.
-inline constexpr int block_columns = 32;
+// Nodes of a row are looked at together, a bit each; they are the corners of so many squares.
+inline constexpr int block_columns = 63;
 
-// For columns first ... last (both included, at most block_columns + 1 of them) of two rows: how many
-// of the two nodes have V >= 0.5. Returns the largest V of the first row.
+// Bit k: V[k] >= 0.5, for k < nodes <= 64. `largest` becomes at least the largest V of them.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Real count_high_nodes(const Real* here, const Real* above, int first, int last,
-                                             int* high) {
-  Real largest = here[first];
-#pragma omp simd reduction(max : largest)
-  for (int j = first; j <= last; ++j) {
-    high[j - first] = (here[j] >= Real(0.5) ? 1 : 0) + (above[j] >= Real(0.5) ? 1 : 0);
-    largest = here[j] > largest ? here[j] : largest;
+KOKKOS_INLINE_FUNCTION std::uint64_t high_nodes(const Real* V, int nodes, double& largest) {
+  std::uint64_t high = 0;
+  Real most = V[0];
+#pragma omp simd reduction(| : high) reduction(max : most)
+  for (int k = 0; k < nodes; ++k) {
+    high |= std::uint64_t(V[k] >= Real(0.5) ? 1 : 0) << k;
+    most = V[k] > most ? V[k] : most;
   }
-  return largest;
+  largest = Kokkos::max(largest, double(most));
+  return high;
 }
+
+// Of the nodes of a row: bits of those whose rate is surely so or not asked for.
+struct RateSigns {
+  std::uint64_t positive, not_positive;
+};
+
+// Asks for the rates of the nodes `asked` of row i, bit 0 being column `first`. What is positive is so far
+// from zero that its product with V - 0.5 does not vanish.
+template <class Rate>
+KOKKOS_INLINE_FUNCTION RateSigns rate_signs(const Rate& rate, int m, int i, int first, std::uint64_t asked) {
+  constexpr double vanishing = 1e-30;
+  RateSigns signs{~asked, ~asked};
+  for (std::uint64_t rest = asked; rest != 0; rest &= rest - 1) {
+    const int k = Kokkos::countr_zero(rest);
+    const double v = double(rate(m, i, first + k));
+    signs.positive |= std::uint64_t(v > vanishing ? 1 : 0) << k;
+    signs.not_positive |= std::uint64_t(v <= 0 ? 1 : 0) << k;
+  }
+  return signs;
+}
+
+// Bits of the squares whose four corners all have their bit.
+KOKKOS_INLINE_FUNCTION std::uint64_t all_corners(std::uint64_t below, std::uint64_t above) {
+  return below & below >> 1 & above & above >> 1;
+}
+
+// What find_phase_singularities() does in a tile of squares. The winding of a square is not zero only where V
+// crosses 0.5 along some of its edges and the rate has not one sign at all ends of these: the rate is asked
+// for at such nodes alone, once, and a square that passes is looked at in full.
+template <class View, class Rate, class MemorySpace>
+struct SingularitySearch {
+  using Real = typename View::non_const_value_type;
+  tissue::Grid grid;
+  View V;
+  Rate rate;
+  Kokkos::View<int, MemorySpace> count;
+  Kokkos::View<PhaseSingularity*, MemorySpace> found;
+  int rows_per_tile, tiles_in_column, tiles_in_row;
+
+  KOKKOS_FUNCTION void operator()(int tile, double& largest) const {
+    const int m = tile / (tiles_in_column * tiles_in_row);
+    const int first_row = tile / tiles_in_row % tiles_in_column * rows_per_tile;
+    const int last_row = Kokkos::min(first_row + rows_per_tile, grid.rows - 1);
+    const int first = tile % tiles_in_row * block_columns;
+    const int nodes = Kokkos::min(block_columns + 1, grid.columns - first);
+    const std::uint64_t squares = ~std::uint64_t(0) >> (65 - nodes);
+
+    std::uint64_t high = high_nodes(&V(m, first_row, first), nodes, largest), high_below = high;
+    RateSigns signs_below{};
+    for (int i = first_row; i <= last_row; ++i) {
+      const std::uint64_t high_above = i < last_row ? high_nodes(&V(m, i + 1, first), nodes, largest) : high;
+      const std::uint64_t along = (high ^ high >> 1) & squares;
+      const std::uint64_t ends = along | along << 1 | (high ^ high_below) | (high ^ high_above);
+      const RateSigns signs = rate_signs(rate, m, i, first, ends);
+      if (i > first_row) {
+        const std::uint64_t crossed =
+            squares & ~all_corners(high_below, high) & ~all_corners(~high_below, ~high);
+        const std::uint64_t one_sign = all_corners(signs_below.positive, signs.positive) |
+                                       all_corners(signs_below.not_positive, signs.not_positive);
+        for (std::uint64_t rest = crossed & ~one_sign; rest != 0; rest &= rest - 1)
+          look_at_square(m, i - 1, first + Kokkos::countr_zero(rest));
+      }
+      high_below = high;
+      high = high_above;
+      signs_below = signs;
+    }
+  }
+
+  KOKKOS_FUNCTION void look_at_square(int m, int i, int j) const {
+    const Corners u{{V(m, i, j) - 0.5, V(m, i, j + 1) - 0.5, V(m, i + 1, j + 1) - 0.5, V(m, i + 1, j) - 0.5}};
+    const Corners v{{double(rate(m, i, j)), double(rate(m, i, j + 1)), double(rate(m, i + 1, j + 1)),
+                     double(rate(m, i + 1, j))}};
+    const int charge = winding_number(u, v);
+    if (charge == 0) return;
+    const auto at = bilinear_root(u, v);
+    const int slot = Kokkos::atomic_fetch_inc(&count());
+    if (slot < static_cast<int>(found.extent(0)))
+      found(slot) = {m, i, j, charge, grid.dx * (j + at.first), grid.dx * (i + at.second)};
+  }
+};
 
 // Appends the singularities of all members to `found` in any order (the caller sorts); `count` is
 // how many there are, which may exceed the room in `found`. Rate: dV/dt at (member, row, column).
@@ -94,40 +177,17 @@ template <class ExecutionSpace, class View, class Rate, class MemorySpace>
 double find_phase_singularities(const ExecutionSpace& space, const tissue::Grid& grid, const View& V,
                                 const Rate& rate, const Kokkos::View<int, MemorySpace>& count,
                                 const Kokkos::View<PhaseSingularity*, MemorySpace>& found) {
-  using Real = typename View::non_const_value_type;
-  const int rows = grid.rows, columns = grid.columns;
-  const double dx = grid.dx;
+  // A thread of a host looks at each row of its tile once, one of a device at a row of squares.
+  const int rows_per_tile = runs_on_host<ExecutionSpace> ? 16 : 1;
+  const int tiles_in_column = tissue::tiles_of(grid.rows - 1, rows_per_tile);
+  const int tiles_in_row = tissue::tiles_of(grid.columns - 1, block_columns);
+  const SingularitySearch<View, Rate, MemorySpace> search{
+      grid, V, rate, count, found, rows_per_tile, tiles_in_column, tiles_in_row};
   double largest_V = 0;
-  Kokkos::parallel_reduce(
-      "myowave::observe::find_phase_singularities",
-      Kokkos::RangePolicy<ExecutionSpace>(space, 0, static_cast<int>(V.extent(0)) * rows),
-      KOKKOS_LAMBDA(int row, double& largest) {
-        const int m = row / rows, i = row % rows;
-        // The last row has no squares of its own; it is looked at for the largest V.
-        const int above = i + 1 < rows ? i + 1 : i;
-        for (int first = 0; first < columns; first += block_columns) {
-          const int last = Kokkos::min(first + block_columns, columns - 1);
-          int high[block_columns + 1];
-          const Real highest = count_high_nodes(&V(m, i, 0), &V(m, above, 0), first, last, high);
-          largest = Kokkos::max(largest, double(highest));
-          if (above == i) continue;
-          for (int j = first; j < last; ++j) {
-            const int high_corners = high[j - first] + high[j - first + 1];
-            if (high_corners == 0 || high_corners == 4) continue;
-            const Corners u{
-                {V(m, i, j) - 0.5, V(m, i, j + 1) - 0.5, V(m, i + 1, j + 1) - 0.5, V(m, i + 1, j) - 0.5}};
-            const Corners v{{double(rate(m, i, j)), double(rate(m, i, j + 1)), double(rate(m, i + 1, j + 1)),
-                             double(rate(m, i + 1, j))}};
-            const int charge = winding_number(u, v);
-            if (charge == 0) continue;
-            const auto at = bilinear_root(u, v);
-            const int slot = Kokkos::atomic_fetch_inc(&count());
-            if (slot < static_cast<int>(found.extent(0)))
-              found(slot) = {m, i, j, charge, dx * (j + at.first), dx * (i + at.second)};
-          }
-        }
-      },
-      Kokkos::Max<double>(largest_V));
+  Kokkos::parallel_reduce("myowave::observe::find_phase_singularities",
+                          Kokkos::RangePolicy<ExecutionSpace>(
+                              space, 0, static_cast<int>(V.extent(0)) * tiles_in_column * tiles_in_row),
+                          search, Kokkos::Max<double>(largest_V));
   return largest_V;
 }
 
