@@ -52,6 +52,9 @@ class Trial final : public solver::OutputSink {
   void tips(double t, std::span<const solver::Tip> tips) override { outputs_.tips(t, tips); }
   void trajectory(const solver::TipTrajectory& one) override { outputs_.trajectory(one); }
   void area(double t, double total, double min, double max) override { outputs_.area(t, total, min, max); }
+  void element_areas(double t, std::span<const double> ratios) override { outputs_.element_areas(t, ratios); }
+  void beat(const solver::ProbeBeat& beat) override { outputs_.beat(beat); }
+  void maps(const solver::ActivationMaps& maps) override { outputs_.maps(maps); }
   bool wants_fields() const override { return outputs_.wants_fields(); }
 
   // First at t = 0, when the sheet is made, solved and shown: that is done once.

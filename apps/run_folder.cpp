@@ -14,6 +14,7 @@
 #include "apps/file_io.hpp"
 #include "apps/frame_picture.hpp"
 #include "apps/manifest.hpp"
+#include "apps/maps_file.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/summary_file.hpp"
 #include "apps/xdmf_file.hpp"
@@ -25,9 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // What an earlier run may have left. Nothing else in the folder is touched.
-constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5",        "fields.xdmf",
-                                "probes.csv",   "tips.csv",      "trajectories.csv", "sources.csv",
-                                "beats.csv",    "area.csv",      "element_areas.csv"};
+constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5",         "fields.xdmf",
+                                "probes.csv",   "beats.csv",     "tips.csv",          "trajectories.csv",
+                                "sources.csv",  "area.csv",      "element_areas.csv", "maps.h5"};
 
 bool is_frame(const fs::path& path) {
   return path.extension() == ".png" && path.filename().string().starts_with("frame_");
@@ -199,6 +200,8 @@ void RunFolder::area(double t, double total, double min, double max) {
 void RunFolder::element_areas(double t, std::span<const double> ratios) {
   impl_->element_areas->append(fmt::format("{},{}\n", t, fmt::join(ratios, ",")));
 }
+
+void RunFolder::maps(const solver::ActivationMaps& maps) { write_maps(impl_->folder / "maps.h5", maps); }
 
 void RunFolder::progress(const solver::Progress& progress) { impl_->progress.show(progress); }
 

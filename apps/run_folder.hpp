@@ -33,6 +33,7 @@ class RunFolder final : public solver::OutputSink {
   void beat(const solver::ProbeBeat&) override;
   void area(double t, double total, double min, double max) override;
   void element_areas(double t, std::span<const double>) override;
+  void maps(const solver::ActivationMaps&) override;
   void progress(const solver::Progress&) override;
   void warning(const std::string&) override;
   bool wants_fields() const override;

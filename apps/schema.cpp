@@ -322,6 +322,8 @@ std::vector<Section> make_schema() {
          "fields.h5 with V, r, Ta and nodes, and its .xdmf."},
         {"element_areas", "", flag(MYOWAVE_AT(scene.output.element_areas)),
          "element_areas.csv, the area of each element. No effect in a rigid run."},
+        {"maps", "", flag(MYOWAVE_AT(scene.output.maps)),
+         "maps.h5 with activation, period, APD and conduction velocity of each node."},
         {"tension", "", flag(MYOWAVE_AT(scene.output.tension)),
          "`false`: Ta is computed only where it contracts the sheet. A contracting run that starts from "
          "fields.h5 needs it there.",

@@ -17,6 +17,14 @@ json sd(const solver::MeanSd& m) { return m.n > 1 ? number(m.sd) : json(nullptr)
 
 json mean_sd_n(const solver::MeanSd& m) { return {{"mean", mean(m)}, {"sd", sd(m)}, {"n", m.n}}; }
 
+json conduction_velocity(const std::optional<solver::Quartiles>& v) {
+  if (!v) return nullptr;
+  return {{"median", number(v->median)},
+          {"lower_quartile", number(v->lower)},
+          {"upper_quartile", number(v->upper)},
+          {"n", v->n}};
+}
+
 json pair(const std::optional<std::pair<double, double>>& values, const char* first, const char* second) {
   if (!values) return nullptr;
   return {{first, number(values->first)}, {second, number(values->second)}};
@@ -89,6 +97,7 @@ json observables(const solver::Observables& o) {
           {"tips", tips(o.tips, o.tips_correlation_tu)},
           {"trajectories", trajectories(o.trajectories)},
           {"core", core(o.longest_trajectory)},
+          {"conduction_velocity", conduction_velocity(o.conduction_velocity)},
           {"breakup_tu", number(o.breakup_tu)},
           {"death_tu", number(o.death_tu)},
           {"area", pair(o.area, "min", "max")},

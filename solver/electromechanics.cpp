@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -137,6 +138,10 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
              {}};
     if (has_tension(scene)) kept_.Ta = View("myowave::solver::Ta_kept", 1, grid_.rows, grid_.columns);
   }
+  if (scene.output.maps)
+    activation_ = {
+        {"myowave::solver::activation_marks", 1, std::size_t(grid_.rows), std::size_t(grid_.columns)},
+        {"myowave::solver::activation", 1, std::size_t(grid_.rows), std::size_t(grid_.columns)}};
   // Single steps update r and Ta in place.
   if (steps_in_tiles(form_)) {
     spare_.r = View("myowave::solver::r_next", 1, grid_.rows, grid_.columns);
@@ -433,6 +438,44 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   });
   for (const auto& tip : sorted) activity.tips.push_back({tip.x, tip.y, tip.charge});
   return activity;
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::look_at_activation(double t) {
+  const Timer timer(phases_->observe);
+  if (activation_look_)
+    observe::look_at_activation(space_, state_.V,
+                                observe::ActivationLook{*activation_look_, t, scene_.output.period_from, {}},
+                                activation_);
+  else
+    observe::begin_activation(space_, state_.V, activation_);
+  space_.fence("myowave::solver::look_at_activation");
+  activation_look_ = t;
+}
+
+template <class ExecutionSpace, class Real>
+ActivationMaps Electromechanics<ExecutionSpace, Real>::activation_maps() const {
+  const Timer timer(phases_->observe);
+  const auto records = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, activation_.records);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  ActivationMaps maps;
+  maps.rows = grid_.rows;
+  maps.columns = grid_.columns;
+  maps.dx = grid_.dx;
+  maps.apd_level = observe::ActivationLevels().end;
+  for (std::size_t n = 0; n < records.size(); ++n) {
+    const observe::ActivationRecord& node = records.data()[n];
+    const bool activated = node.beats > 0;
+    maps.activation.push_back(activated ? node.last : none);
+    maps.first_activation.push_back(activated ? node.first : none);
+    maps.period.push_back(node.periods > 0 ? node.mean_period : none);
+    maps.period_sd.push_back(node.periods > 1 ? std::sqrt(node.squared_deviations / (node.periods - 1))
+                                              : none);
+    maps.apd.push_back(node.apds > 0 ? node.total_apd / node.apds : none);
+    maps.beats.push_back(node.beats);
+  }
+  maps.conduction_velocity = conduction_velocity(grid_.rows, grid_.columns, grid_.dx, maps.activation);
+  return maps;
 }
 
 // A look often finds the same stimuli as the one before: none, or those of a long pulse.

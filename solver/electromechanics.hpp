@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/observe/activation.hpp"
 #include "kernels/observe/phase_singularity.hpp"
 #include "solver/area_sample.hpp"
 #include "solver/equilibrium.hpp"
@@ -92,6 +93,11 @@ class Electromechanics {
   // V, r, Ta of each probe now.
   std::vector<double> probe_values() const;
 
+  // What the crossings of V since the last look tell; the first look begins the maps. Where the scene has
+  // maps.
+  void look_at_activation(double t);
+  ActivationMaps activation_maps() const;
+
   const AreaSample& area() const { return area_; }  // of the last solve taken, at the time of its tension
   // Of each element, relative to the loaded rest state.
   std::vector<double> element_area_ratios() const;
@@ -145,6 +151,8 @@ class Electromechanics {
   Mirrored<Record> probe_values_;                   // (V, r, Ta; probe)
   Mirrored<Kokkos::View<int, Space>> tip_count_;
   Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
+  observe::ActivationFields<Space> activation_;
+  std::optional<double> activation_look_;                 // t of the last one
   Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
   std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernels/elastic/assemble.hpp"
+#include "kernels/observe/activation.hpp"
 #include "kernels/observe/phase_singularity.hpp"
 #include "solver/breakup.hpp"
 #include "solver/electromechanics.hpp"
@@ -205,6 +206,18 @@ PlannedPart probes(const Scene& scene, const Sizes& sizes) {
           .other_bytes = number * steps * sizeof(double)};
 }
 
+PlannedPart maps(const Scene& scene, const Sizes& sizes) {
+  if (!scene.output.maps) return {.part = "maps", .why = "output.maps = false"};
+  return {.part = "maps",
+          .active = true,
+          .what = fmt::format("activation, period and APD of each node, V looked at every {} t.u.",
+                              ActivationMaps::look_every),
+          .why = "output.maps = true",
+          .view_bytes = sizes.nodes * (sizeof(float) + sizeof(observe::ActivationRecord)),
+          // Six numbers and a count of each node, when the run ends.
+          .other_bytes = sizes.nodes * (6 * sizeof(double) + sizeof(int))};
+}
+
 std::vector<PlannedPart> outputs(const Scene& scene, const Sizes& sizes) {
   const auto output = [](const char* part, bool active, std::string what, std::string why) {
     return PlannedPart{
@@ -246,7 +259,7 @@ Plan make_plan(const Scene& scene) {
                     stencil = diffusion(scene, sizes), metric = feedback(scene, sizes);
   const auto nodes = static_cast<double>(sizes.nodes);
   Plan plan{{V_and_r, Ta, stencil, mechanics(scene, sizes), contraction(scene), metric,
-             substeps(scene, sizes), tips(scene), probes(scene, sizes)},
+             substeps(scene, sizes), tips(scene), probes(scene, sizes), maps(scene, sizes)},
             static_cast<double>(V_and_r.view_bytes + Ta.view_bytes) / nodes,
             static_cast<double>(stencil.view_bytes + metric.view_bytes) / nodes};
   for (auto& part : outputs(scene, sizes)) plan.parts.push_back(std::move(part));

@@ -25,7 +25,7 @@ std::int64_t steps_of(double duration, double dt) { return std::llround(duration
 
 // What is due at which step.
 struct Schedule {
-  std::int64_t last, fields, tips, probes, watch, mechanics, check;
+  std::int64_t last, fields, tips, probes, watch, maps, mechanics, check;
   double fields_from;  // in steps: it may be beyond what any run takes
 
   static constexpr std::int64_t check_without_mechanics = 100;  // steps between checks for non-finite values
@@ -36,6 +36,7 @@ struct Schedule {
         tips(every(scene.output.tips_every, scene)),
         probes(every(scene.output.probes_every, scene)),
         watch(every(BreakupWatch::look_every, scene)),
+        maps(scene.output.maps ? every(ActivationMaps::look_every, scene) : watch),
         mechanics(scene.mechanics ? scene.mechanics->interval : 0),
         check(scene.mechanics ? scene.mechanics->interval : check_without_mechanics),
         // A decimal number of t.u. comes only close to the step that is meant.
@@ -48,7 +49,7 @@ struct Schedule {
 
   std::int64_t next(std::int64_t step) const {
     std::int64_t next = last;
-    for (const auto period : {fields, tips, probes, watch, check})
+    for (const auto period : {fields, tips, probes, watch, maps, check})
       next = std::min(next, (step / period + 1) * period);
     return next;
   }
@@ -190,6 +191,7 @@ class Stage {
       observe([&] { values = sheet.probe_values(); });
       output([&] { sink_.probes(t(), values); });
     }
+    if (scene_.output.maps && schedule_.due(step_, schedule_.maps)) sheet.look_at_activation(t());
     if (!schedule_.fields_due(step_)) return;
     output([&] {
       if (sheet.deforms()) {
@@ -226,6 +228,11 @@ class Stage {
 
   void show_ended_trajectories() {
     for (const auto& ended : observers_.take_ended()) output([&] { sink_.trajectory(ended); });
+  }
+
+  void show_maps(const ActivationMaps& maps) {
+    summary_.observables.conduction_velocity = quartiles(maps.conduction_velocity);
+    output([&] { sink_.maps(maps); });
   }
 
   void write_fields(const Sheet& sheet) {
@@ -265,6 +272,7 @@ class Stage {
     update_summary(sheet);
     show_beats();
     if (observed_) show_ended_trajectories();
+    if (scene_.output.maps) show_maps(sheet.activation_maps());
   }
 
   void update_summary(const Sheet& sheet) {
@@ -319,6 +327,7 @@ Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
   stage.time.t_end = precondition.duration;
   stage.stimuli.clear();
   stage.output.probes.clear();
+  stage.output.maps = false;
   if (!precondition.contraction)
     stage.mechanics.reset();
   else if (stage.mechanics)

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/activation_maps.hpp"
+#include "solver/conduction_velocity.hpp"
 #include "solver/plan.hpp"
 #include "solver/scene.hpp"
 #include "solver/statistics.hpp"
@@ -76,6 +78,8 @@ class OutputSink {
   virtual void area(double /*t*/, double /*total*/, double /*min*/, double /*max*/) {}
   // Likewise, of each element I (element columns) + J; only where the scene asks for them.
   virtual void element_areas(double /*t*/, std::span<const double>) {}
+  // At the end, where the scene asks for them.
+  virtual void maps(const ActivationMaps&) {}
   virtual void progress(const Progress&) {}
   // At the time that the run comes to know; all stand in RunSummary::warnings too.
   virtual void warning(const std::string&) {}
@@ -102,6 +106,7 @@ struct Observables {
   std::optional<double> tips_correlation_tu;
   TrajectoryCounts trajectories;
   std::optional<TipTrajectory> longest_trajectory;
+  std::optional<Quartiles> conduction_velocity;  // over the nodes, length units / t.u.; where there are maps
   std::optional<double> breakup_tu, death_tu;
   std::optional<std::pair<double, double>> area;        // min, max
   std::optional<std::pair<double, double>> shortening;  // largest, at t

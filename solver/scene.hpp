@@ -115,6 +115,7 @@ struct OutputSettings {
   bool frames = false;
   bool fields = false;
   bool element_areas = false;              // no effect in a rigid run
+  bool maps = false;                       // of each node's beats
   bool tension = true;                     // Ta is shown, or another run starts from it
   std::vector<std::array<int, 2>> probes;  // (row, column); empty in a file: the four default ones
   double period_from = 100;                // t.u.

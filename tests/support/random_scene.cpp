@@ -237,7 +237,8 @@ class RandomScene {
   // Drawn last: a key that is added here leaves the rest of each seed's scene as it is.
   void observation() {
     maybe("output", "from", 0, 0, 1.1 * steps_ * dt_, 0.2);
-    if (draw_.chance(0.2)) flag("output", "element_areas", 0.7);
+    for (const char* key : {"element_areas", "maps"})
+      if (draw_.chance(0.2)) flag("output", key, 0.7);
   }
 
   Draw draw_;

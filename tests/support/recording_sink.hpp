@@ -1,6 +1,7 @@
 // An OutputSink that keeps everything, for tests that look at a run from outside.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/run.hpp"
@@ -30,6 +31,7 @@ struct RecordingSink : solver::OutputSink {
   std::vector<TipSample> tip_samples;
   std::vector<solver::TipTrajectory> trajectories;
   std::vector<solver::ProbeBeat> beats;
+  std::optional<solver::ActivationMaps> activation;
   std::vector<Area> areas;
   std::vector<ElementAreas> element_area_samples;
   double last_frame_t = -1;
@@ -56,6 +58,7 @@ struct RecordingSink : solver::OutputSink {
   void element_areas(double t, std::span<const double> ratios) override {
     element_area_samples.push_back({t, {ratios.begin(), ratios.end()}});
   }
+  void maps(const solver::ActivationMaps& shown) override { activation = shown; }
   bool wants_fields() const override { return keep_fields; }
 };
 
