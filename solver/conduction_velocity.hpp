@@ -12,12 +12,10 @@ namespace myowave::solver {
 // one-sided on the edges of the sheet, 0 along a side of a single node.
 //
 // Valid where one front has come to the node and its neighbours: nan
-// - where a neighbour has no time, or one so different that the front would cross dx slower than a twelfth of
-// the
-//   plane wave (it is of another beat, or was blocked);
+// - where a neighbour has no time, or one so different that the front would cross dx slower than a twelfth
+//   of the plane wave (it is of another beat, or was blocked);
 // - where the slopes to both sides differ by more than half of |grad T|: a front begins, turns within its own
-// width,
-//   or meets another (by 28 degrees or more).
+//   width, or meets another (by 28 degrees or more).
 // Curved fronts are slower than plane ones, and a front is faster before an edge that it runs into.
 std::vector<double> conduction_velocity(int rows, int columns, double dx, std::span<const double> activation);
 
