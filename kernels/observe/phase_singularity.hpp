@@ -75,11 +75,17 @@ template <class Real>
 KOKKOS_INLINE_FUNCTION std::uint64_t high_nodes(const Real* V, int nodes, double& largest) {
   std::uint64_t high = 0;
   Real most = V[0];
+  const auto look = [&](int n) {
 #pragma omp simd reduction(| : high) reduction(max : most)
-  for (int k = 0; k < nodes; ++k) {
-    high |= std::uint64_t(V[k] >= Real(0.5) ? 1 : 0) << k;
-    most = V[k] > most ? V[k] : most;
-  }
+    for (int k = 0; k < n; ++k) {
+      high |= std::uint64_t(V[k] >= Real(0.5) ? 1 : 0) << k;
+      most = V[k] > most ? V[k] : most;
+    }
+  };
+  if (nodes == block_columns + 1)
+    look(block_columns + 1);  // most are; a loop of known length
+  else
+    look(nodes);
   largest = Kokkos::max(largest, double(most));
   return high;
 }

@@ -103,7 +103,7 @@ struct MonodomainRate {
   ConstView V, r;
   Kokkos::View<const ActiveStimulus*, typename Diffusion::Space> stimuli;  // those on at this instant
 
-  KOKKOS_FUNCTION Real operator()(int m, int i, int j) const {
+  KOKKOS_FORCEINLINE_FUNCTION Real operator()(int m, int i, int j) const {
     double current = 0;
     for (std::size_t s = 0; s < stimuli.extent(0); ++s)
       if (stimuli(s).region.contains(i, j)) current += stimuli(s).amplitude;
