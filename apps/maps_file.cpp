@@ -35,7 +35,7 @@ void write_maps(const std::filesystem::path& path, const solver::ActivationMaps&
   write_numbers("period", maps.period, "t.u.", "mean time from one activation to the next");
   write_numbers("period_sd", maps.period_sd, "t.u.", "its standard deviation");
   const Hdf5Handle apd =
-      write_numbers("apd", maps.apd, "t.u.", "mean duration of the action potentials, V > level");
+      write_numbers("apd", maps.apd, "t.u.", "mean time from activation until V falls through level");
   write_attribute(apd, "level", maps.apd_level);
   write("beats", maps.beats, H5T_STD_I32LE, H5T_NATIVE_INT, "1", "activations in the whole run");
   write_numbers("conduction_velocity", maps.conduction_velocity, "length units / t.u.",

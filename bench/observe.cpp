@@ -1,5 +1,6 @@
 // What a run looks at between its steps:
-//   observe / tips | finite_check | probes / float64|float32 / n     observe / areas / elements a side
+//   observe / tips | finite_check | probes | activation / float64|float32 / n     observe / areas / elements
+//   a side
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
+#include "kernels/observe/activation.hpp"
 #include "kernels/observe/area_change.hpp"
 #include "kernels/observe/finite_check.hpp"
 #include "kernels/observe/phase_singularity.hpp"
@@ -108,6 +110,28 @@ void time_areas(benchmark::State& state, const Suite& suite, int elements) {
     }
 }
 
+// The sheet and the same a row further, by turns, so that records change as at a front.
+template <class Real>
+void time_activation(benchmark::State& state, const Suite& suite, int n) {
+  const Sheet<Real> sheet(n), later(n);
+  fill(later.V, [](int i, int j) { return static_cast<Real>(initial_V(i + 1, j)); });
+  const observe::ActivationFields<MemorySpace> fields{
+      {"myowave::bench::marks", 1, std::size_t(n), std::size_t(n)},
+      {"myowave::bench::records", 1, std::size_t(n), std::size_t(n)}};
+  observe::begin_activation(ExecutionSpace(), sheet.V, fields);
+  double t = 0;
+  const double size = static_cast<double>(n) * n;
+  const double seconds = measure(state, batch_of(size), [&] {
+    const auto& V = std::fmod(t, 2) == 0 ? later.V : sheet.V;
+    observe::look_at_activation(ExecutionSpace(), V, observe::ActivationLook{t, t + 1, 0, {}}, fields);
+    t += 1;
+  });
+  report(state, suite, seconds, "nodes_per_s", size, activation_traffic<Real>(),
+         suite.peak_flops_per_s<Real>());
+  const auto last = to_host(fields.marks);
+  if (!std::isfinite(last[0])) fail(state, "a mark is not finite");
+}
+
 template <class Real>
 void register_rows(const Suite& suite) {
   for (const int n : suite.sizes({251, 1024, 4096}, small_n)) {
@@ -116,6 +140,7 @@ void register_rows(const Suite& suite) {
     };
     add_row(row("tips"), [=](benchmark::State& state) { time_tips<Real>(state, suite, n); });
     add_row(row("finite_check"), [=](benchmark::State& state) { time_finite_check<Real>(state, suite, n); });
+    add_row(row("activation"), [=](benchmark::State& state) { time_activation<Real>(state, suite, n); });
     add_row(row("probes"), [=](benchmark::State& state) { time_probes<Real>(state, n); });
   }
 }

@@ -91,4 +91,11 @@ constexpr Traffic finite_check_traffic() {
 // An element: two numbers of a node read, the area written.
 inline constexpr Traffic area_traffic{16, 8, 8, 8};
 
+// A node: V and its mark read twice from the cache, once from memory, the mark written; records are rare.
+// Operations: the comparisons of nodes_that_tell and refresh_marks.
+template <class Real>
+constexpr Traffic activation_traffic() {
+  return {sizeof(Real) + sizeof(float), sizeof(float), 0, 10};
+}
+
 }  // namespace myowave::bench

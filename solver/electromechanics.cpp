@@ -15,6 +15,7 @@
 #include "kernels/transfer/tension_to_gauss.hpp"
 #include "solver/denormals.hpp"
 #include "solver/error.hpp"
+#include "solver/rhythm.hpp"
 #include "solver/state_fault.hpp"
 
 namespace myowave::solver {
@@ -34,6 +35,11 @@ class Timer {
   double& seconds_;
   Clock::time_point start_;
 };
+
+// Maps and probes tell beats alike.
+constexpr observe::ActivationLevels beat_levels{static_cast<float>(BeatDetector::threshold),
+                                                static_cast<float>(BeatDetector::rearm),
+                                                static_cast<float>(BeatDetector::apd_level)};
 
 elastic::ElementGrid make_elements(const Scene& scene) {
   if (!scene.mechanics) return {};
@@ -444,11 +450,11 @@ template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::look_at_activation(double t) {
   const Timer timer(phases_->observe);
   if (activation_look_)
-    observe::look_at_activation(space_, state_.V,
-                                observe::ActivationLook{*activation_look_, t, scene_.output.period_from, {}},
-                                activation_);
+    observe::look_at_activation(
+        space_, state_.V,
+        observe::ActivationLook{*activation_look_, t, scene_.output.period_from, beat_levels}, activation_);
   else
-    observe::begin_activation(space_, state_.V, activation_);
+    observe::begin_activation(space_, state_.V, activation_, beat_levels);
   space_.fence("myowave::solver::look_at_activation");
   activation_look_ = t;
 }
@@ -462,7 +468,7 @@ ActivationMaps Electromechanics<ExecutionSpace, Real>::activation_maps() const {
   maps.rows = grid_.rows;
   maps.columns = grid_.columns;
   maps.dx = grid_.dx;
-  maps.apd_level = observe::ActivationLevels().end;
+  maps.apd_level = BeatDetector::apd_level;
   for (std::size_t n = 0; n < records.size(); ++n) {
     const observe::ActivationRecord& node = records.data()[n];
     const bool activated = node.beats > 0;

@@ -243,7 +243,7 @@ TEST(Plan, CountsTheBytesThatKokkosAllocates) {
   for (const auto& file : shipped_scenes()) {
     for (const char* variant :
          {"accuracy.on_unstable=substep", "mechanics.on=false", "feedback.metric=expanded",
-          "feedback.metric=none", "accuracy.precision=float32"}) {
+          "feedback.metric=none", "accuracy.precision=float32", "output.maps=true"}) {
       Scene scene = apps::read_scene(file, {variant});
       scene.initial = {};
       scene.initial.type = solver::InitialSettings::Type::broken_front;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -107,6 +108,70 @@ TEST(Sampling, BeatsOfAPacedSheetFollowTheStimulus) {
   EXPECT_EQ(run.summary.observables.period.n, 4);
   EXPECT_NEAR(run.summary.observables.period.mean, 40, 0.01);
   EXPECT_EQ(run.summary.observables.apd90.n, 6) << "the last have ended, and nothing has begun after them";
+}
+
+// V = 1 on five columns of a cable of three rows.
+test::RecordedRun plane_wave(solver::Precision precision) {
+  Scene scene;
+  scene.grid = {3, 201, 0.6};
+  scene.time.t_end = 78;
+  scene.precision = precision;
+  scene.output.maps = true;
+  scene.output.period_from = 0;
+  for (int j = 20; j < 200; j += 7) scene.output.probes.push_back({1, j});
+  solver::InitialState state = solver::make_initial_state(scene);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 6; ++j) state.V[i * 201 + j] = 1;
+  return test::recorded_run(scene, state);
+}
+
+TEST(Sampling, MapOfAPlaneWaveHasItsVelocity) {
+  for (const auto precision : {solver::Precision::float64, solver::Precision::float32}) {
+    const test::RecordedRun run = plane_wave(precision);
+    const auto& maps = run.sink.activation.value();
+    EXPECT_NEAR(run.summary.observables.conduction_velocity->median, 1.535, 0.01 * 1.535);
+    for (int j = 60; j < 180; ++j) EXPECT_NEAR(maps.conduction_velocity[201 + j], 1.535, 0.02 * 1.535) << j;
+    EXPECT_EQ(maps.activation[201 + 100], maps.first_activation[201 + 100]);
+    // Beats are found from every step, maps from each twentieth.
+    double largest = 0;
+    for (const auto& [probe, beat] : run.sink.beats)
+      largest = std::max(largest, std::abs(maps.activation[201 + 20 + 7 * probe] - beat.upstroke));
+    EXPECT_GT(run.sink.beats.size(), 20);
+    EXPECT_LT(largest, 0.01);
+  }
+}
+
+TEST(Sampling, MapOfAPacedSheetHasThePeriodOfTheStimulus) {
+  Scene scene;
+  scene.grid = {9, 35, 0.6};
+  scene.time.t_end = 400;
+  scene.stimuli = {{.period = 40, .duration = 1, .amplitude = 0.5, .count = -1}};
+  scene.output.maps = true;
+  scene.output.probes = {{4, 4}};
+  const test::RecordedRun run = test::recorded_run(scene);
+  const auto& maps = run.sink.activation.value();
+  ASSERT_EQ(maps.period.size(), 9 * 35);
+  for (std::size_t n = 0; n < maps.period.size(); ++n) {
+    EXPECT_EQ(maps.beats[n], 10);
+    EXPECT_NEAR(maps.period[n], 40, 0.01);
+    EXPECT_NEAR(maps.period[n], run.summary.observables.period.mean, 0.01);
+    EXPECT_NEAR(maps.period_sd[n], 0, 0.03) << "the beats settle, and looks are 0.4 apart";
+    EXPECT_NEAR(maps.apd[n], run.summary.observables.apd90.mean, 0.02);
+    EXPECT_TRUE(std::isnan(maps.conduction_velocity[n])) << "all at once is no front";
+  }
+  EXPECT_EQ(run.summary.observables.conduction_velocity->n, 0);
+}
+
+TEST(Sampling, MapsLeaveTheRunAsItIs) {
+  Scene scene = contracting_sheet();
+  const test::RecordedRun without = test::recorded_run(scene);
+  scene.output.maps = true;
+  const test::RecordedRun with = test::recorded_run(scene);
+  EXPECT_FALSE(without.sink.activation);
+  EXPECT_FALSE(without.summary.observables.conduction_velocity);
+  ASSERT_TRUE(with.sink.activation);
+  EXPECT_EQ(with.state.V, without.state.V);
+  EXPECT_EQ(with.sink.nodes, without.sink.nodes);
 }
 
 }  // namespace
