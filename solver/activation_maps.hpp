@@ -7,7 +7,8 @@ namespace myowave::solver {
 
 // Row-major (rows, columns). Times in t.u.; nan where there is none.
 struct ActivationMaps {
-  // t.u., from one look at V to the next. A plane wave's upstroke, linear between two looks, is off by 0.003.
+  // t.u., from one look at V to the next. A plane wave's upstroke, linear between two looks, is off by 0.007
+  // at most.
   static constexpr double look_every = 0.4;
 
   int rows = 0, columns = 0;

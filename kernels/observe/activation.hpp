@@ -129,9 +129,9 @@ KOKKOS_INLINE_FUNCTION std::uint32_t nodes_that_tell(const ActivationLook& look,
   return told;
 }
 
+// `look` by value: a mark that is stored could alias the levels, and no SIMD lane would take them.
 template <class Real>
-KOKKOS_INLINE_FUNCTION void refresh_marks(const ActivationLook& look, const Real* V, float* marks,
-                                          int columns) {
+KOKKOS_INLINE_FUNCTION void refresh_marks(ActivationLook look, const Real* V, float* marks, int columns) {
 #pragma omp simd
   for (int j = 0; j < columns; ++j) marks[j] = look.next_mark(marks[j], static_cast<float>(V[j]));
 }
