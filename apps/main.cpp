@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/report.hpp"
 #include "apps/schema.hpp"
 #include "myowave_version.hpp"
 #include "solver/error.hpp"
@@ -101,11 +102,19 @@ int main(int argc, char** argv) {
   reproduce->add_option("--jobs", figures.jobs, "Runs at once; without it one a core")->type_name("J");
   reproduce->footer(apps::figure_names());
 
+  apps::ReportRequest page;
+  CLI::App* report = app.add_subcommand("report", "Make one page, report.html, that shows runs");
+  report->add_option("DIR", page.folders, "Result folders of runs, or of a reproduction")->required();
+  report->add_option("--out", page.out, "The page; without it report.html in the first folder")
+      ->type_name("FILE");
+  report->add_flag("--movie", page.movie, "Also movie.mp4 of each run, by ffmpeg where it is installed");
+
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
   // CLI11 would only say that a subcommand is missing.
-  const std::vector<std::string_view> names{"run", "check", "describe", "stability", "reproduce", "info"};
+  const std::vector<std::string_view> names{"run",       "check",  "describe", "stability",
+                                            "reproduce", "report", "info"};
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
     const std::string meant = apps::did_you_mean(argv[1], names);
     fmt::print(stderr,
@@ -131,6 +140,7 @@ int main(int argc, char** argv) {
     if (describe->parsed()) apps::describe(section, markdown);
     if (stability->parsed()) apps::stability(maps);
     if (reproduce->parsed()) apps::reproduce(figures);
+    if (report->parsed()) apps::report(page);
     if (info->parsed()) apps::info();
   });
 }

@@ -111,14 +111,18 @@ CsvTable read_csv(const fs::path& path) {
   while (std::getline(file, line)) {
     auto cells = split(line);
     // A row is whole where its line has ended.
-    if (!file.eof() && cells.size() == table.columns.size()) table.rows.push_back(std::move(cells));
+    if (!file.eof() && cells.size() == table.columns.size())
+      table.rows.push_back(std::move(cells));
+    else
+      ++table.left_out;
   }
   return table;
 }
 
-RunResults::RunResults(fs::path folder) : folder_(std::move(folder)) {
+RunResults::RunResults(fs::path folder, Unfinished unfinished) : folder_(std::move(folder)) {
   const fs::path path = folder_ / "summary.json";
   std::ifstream file(path);
+  if (!file && unfinished == Unfinished::accept) return;
   if (!file)
     throw InputError(
         fmt::format("{}: there is no summary.json: not the folder of a finished run", folder_.string()));

@@ -16,6 +16,7 @@ namespace myowave::apps {
 struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  std::size_t left_out = 0;  // rows that are not whole
 
   bool has(std::string_view column) const;
   // Errors, here and below: std::out_of_range that names the column and those there are.
@@ -37,8 +38,10 @@ struct StoredFrame {
 
 class RunResults {
  public:
+  // A run that is not finished has no summary.json; where that is accepted the summary is null.
+  enum class Unfinished { refuse, accept };
   // Errors: InputError where the folder holds no summary.json, or one that cannot be read.
-  explicit RunResults(std::filesystem::path folder);
+  explicit RunResults(std::filesystem::path folder, Unfinished = Unfinished::refuse);
 
   const std::filesystem::path& folder() const { return folder_; }
   const nlohmann::ordered_json& summary() const { return summary_; }

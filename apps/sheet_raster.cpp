@@ -47,15 +47,6 @@ struct Bilinear {
   }
 };
 
-// V between the grid nodes.
-double sample(const Sheet& sheet, double row, double column) {
-  const int i = std::min(int(row), sheet.shape.rows - 2), j = std::min(int(column), sheet.shape.columns - 2);
-  const double u = column - j, v = row - i;
-  const double* V = sheet.V.data() + std::size_t(i) * std::size_t(sheet.shape.columns) + std::size_t(j);
-  const double* above = V + sheet.shape.columns;
-  return (1 - v) * ((1 - u) * V[0] + u * V[1]) + v * ((1 - u) * above[0] + u * above[1]);
-}
-
 // Number of the element columns that are drawn.
 int columns_of(const FrameShape& shape) { return std::max(1, shape.element_columns()); }
 int rows_of(const FrameShape& shape) { return std::max(1, shape.element_rows()); }
@@ -81,7 +72,7 @@ void fill_element(Picture& picture, const Sheet& sheet, const SheetView& view, i
   for (int y = std::max(0, int(std::ceil(top))); y <= last_y; ++y) {
     for (int x = std::max(0, int(std::ceil(left))); x <= last_x; ++x) {
       const auto at = map.inverse({double(x), double(y)});
-      if (at) picture.at(x, y) = colour(sample(sheet, cells_2 * (I + at->y), cells_1 * (J + at->x)));
+      if (at) picture.at(x, y) = colour(sheet_V(sheet, cells_2 * (I + at->y), cells_1 * (J + at->x)));
     }
   }
 }
@@ -103,6 +94,14 @@ void draw_lines(Picture& picture, Strokes& border, const Sheet& sheet, const She
 }
 
 }  // namespace
+
+double sheet_V(const Sheet& sheet, double row, double column) {
+  const int i = std::min(int(row), sheet.shape.rows - 2), j = std::min(int(column), sheet.shape.columns - 2);
+  const double u = column - j, v = row - i;
+  const double* V = sheet.V.data() + std::size_t(i) * std::size_t(sheet.shape.columns) + std::size_t(j);
+  const double* above = V + sheet.shape.columns;
+  return (1 - v) * ((1 - u) * V[0] + u * V[1]) + v * ((1 - u) * above[0] + u * above[1]);
+}
 
 std::array<double, 8> sheet_corners(const FrameShape& shape) {
   const double length_1 = (shape.columns - 1) * shape.dx, length_2 = (shape.rows - 1) * shape.dx;

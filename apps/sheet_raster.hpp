@@ -27,6 +27,9 @@ struct Sheet {
   std::span<const double> nodes;  // as in solver::Frame; not read of a rigid sheet
 };
 
+// V between the grid nodes, which are at whole rows and columns.
+double sheet_V(const Sheet&, double row, double column);
+
 // The corners of a rigid sheet, which is drawn as one element: {x1, x2} of (0, 0), (0, 1), (1, 0), (1, 1).
 std::array<double, 8> sheet_corners(const FrameShape&);
 
