@@ -18,8 +18,9 @@ constexpr Colour ink{30, 30, 30}, grey{150, 150, 150};
 constexpr Pen axis_pen{ink, 0.7};
 constexpr TextStyle number_style{.size = 8.5}, label_style{.size = 9.5}, legend_style{.size = 8.5};
 
-bool is_flat_at_the_ends(const Plot& plot) {
-  return std::ranges::all_of(plot.series, [](const Series& series) {
+// Curves over time go from one end of the axis to the other.
+bool fills_its_width(const Plot& plot) {
+  return !plot.equal_scales && std::ranges::all_of(plot.series, [](const Series& series) {
     return series.mark == Mark::line || series.mark == Mark::steps;
   });
 }
@@ -83,7 +84,7 @@ PlotPanel::PlotPanel(const Plot& plot, double width, double top)
     : plot_(plot),
       width_(width),
       top_(top),
-      x_(axis_range(plot.x, all_x(plot), is_flat_at_the_ends(plot) ? 0 : margin_of_data)),
+      x_(axis_range(plot.x, all_x(plot), fills_its_width(plot) ? 0 : margin_of_data)),
       y_(y_range(plot)) {
   y_ticks_ = round_ticks(y_, 6);
 }
