@@ -47,8 +47,7 @@ TEST(RunResults, ReadsFramesOfADeformedSheet) {
         "[[stimulus]]\namplitude = 0.5\n");
   const auto out = folder / "out";
   ASSERT_EQ(
-      test::run_myowave({"run", (folder / "scene.toml").string(), "--out", out.string(), "--quiet"})
-          .status,
+      test::run_myowave({"run", (folder / "scene.toml").string(), "--out", out.string(), "--quiet"}).status,
       0);
   const RunResults run(out);
   EXPECT_THAT(run.frame_times(), ElementsAre(0, 1, 2));
