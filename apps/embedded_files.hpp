@@ -1,4 +1,5 @@
-// Text files that are compiled in: those of apps/report/ and apps/scenes/ and, where the build found it, uPlot.
+// Text files that are compiled in: those of apps/report/ and apps/scenes/ and, where the build found it,
+// uPlot.
 #pragma once
 
 #include <string_view>
