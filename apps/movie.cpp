@@ -13,8 +13,6 @@
 
 #include "apps/frame_picture.hpp"
 
-extern char** environ;
-
 namespace myowave::apps {
 namespace {
 

@@ -9,6 +9,7 @@
 
 #include "apps/embedded_files.hpp"
 #include "apps/figure.hpp"
+#include "apps/figures/measures.hpp"
 #include "apps/file_io.hpp"
 #include "apps/movie.hpp"
 #include "apps/page.hpp"
@@ -230,6 +231,35 @@ std::string run_html(const ReportRun& run, const fs::path& plots, const std::str
          parameters_html(run) + model_html(run);
 }
 
+// Whether two runs differ in their periods and in their numbers of sources: the unpaired t-test, and one that
+// knows how many independent samples there are.
+std::string tests_html(const ReportRun& first, const ReportRun& second) {
+  const auto has = [&](const char* file) {
+    return fs::exists(first.results().folder() / file) && fs::exists(second.results().folder() / file);
+  };
+  std::vector<Comparison> tests;
+  if (has("beats.csv")) {
+    const auto periods = [](const ReportRun& run) {
+      const nlohmann::json configuration = run.configuration();
+      const double from = configuration.is_object()
+                              ? configuration.value(nlohmann::json::json_pointer("/output/period_from"), 0.0)
+                              : 0.0;
+      return all_periods(periods_of(run.results(), from));
+    };
+    tests.push_back(test_row("period (t.u.)", "", periods(first), periods(second)));
+  }
+  if (has("sources.csv")) {
+    const auto sources = [](const ReportRun& run) {
+      return run.results().csv("sources.csv").numbers("sources");
+    };
+    tests.push_back(test_row("tips", "", sources(first), sources(second)));
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const Comparison& test : tests)
+    rows.push_back({html_escape(test.what), html_escape(test.ours), html_escape(test.samples)});
+  return rows.empty() ? "" : table({"first less second run", "difference of means", "samples"}, rows);
+}
+
 // A column a run, a row a number that differs in its parameters or that was found.
 std::string comparison_html(const std::vector<ReportRun>& runs) {
   std::vector<std::string> head{""};
@@ -260,7 +290,8 @@ std::string comparison_html(const std::vector<ReportRun>& runs) {
     if (parameters.contains(what) && same) continue;
     rows.push_back(row);
   }
-  return "<h2>Side by side</h2>\n" + table(head, rows);
+  return "<h2>Side by side</h2>\n" + table(head, rows) +
+         (runs.size() == 2 ? tests_html(runs[0], runs[1]) : "");
 }
 
 std::string reproduction_html(const fs::path& folder) {

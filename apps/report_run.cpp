@@ -63,12 +63,23 @@ std::string in_words(std::string name) {
 // Names of times: "breakup_tu", "shortening: t".
 bool is_time(std::string_view name) { return name.ends_with("_tu") || name == "t" || name.ends_with(": t"); }
 
+// Of an observable by its name; empty: a number without unit.
+std::string_view unit_of(std::string_view name) {
+  if (name == "core: x" || name == "core: y" || name == "core: radius") return " length units";
+  if (name == "core: drift_speed") return " length units/t.u.";
+  if (name.starts_with("conduction_velocity") && !name.ends_with(": n")) return " length units/t.u.";
+  if (name == "core: drift_direction") return " rad";
+  if (name.starts_with("area")) return " of the loaded sheet at rest";
+  if (name == "shortening: max") return " of the undeformed length";
+  return "";
+}
+
 std::string value_text(std::string_view name, const json& value, double ms_per_tu) {
   if (value.is_number() && is_time(name)) {
     const double t = value.get<double>();
-    return fmt::format("{} t.u. ({} ms)", digits(t), digits(t * ms_per_tu));
+    return fmt::format("{:.6g} t.u. ({:.6g} ms)", t, t * ms_per_tu);
   }
-  if (value.is_number_float()) return digits(value.get<double>());
+  if (value.is_number_float()) return fmt::format("{}{}", digits(value.get<double>()), unit_of(name));
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 

@@ -134,7 +134,7 @@ Plot histograms(const Rows& rows, std::string title) {
 }
 
 Comparison histogram_row(std::string what, std::span<const double> areas, std::span<const double> other,
-                         std::string found) {
+                         const std::string& found) {
   const auto ours = mean_sd(areas);
   return {.what = std::move(what),
           .paper = "histogram; another program " + found,

@@ -29,7 +29,8 @@ void write_run(const fs::path& folder, double mu1 = 0.12) {
     "plan": [{"part": "sheet", "active": true, "what": "flat & thin", "why": ""},
              {"part": "mechanics", "active": false, "what": "", "why": "rigid"}],
     "phases": {"excitation": 1.5}, "throughput": {"cell_steps_per_s": 5e8}, "mechanics": null,
-    "observables": {"period": {"mean": 26.82, "sd": 0.37, "n": 9}, "breakup_tu": 17, "death_tu": null,
+    "observables": {"period": {"mean": 26.82, "sd": 0.37, "n": 9}, "core": {"radius": 1.77, "drift_speed": 0.05},
+                    "breakup_tu": 17, "death_tu": null,
                     "tips": {"mean": )" +
                                      std::to_string(100 * mu1) + R"(, "sd": 1}}})");
   write(folder / "manifest.json", R"({"configuration": {"excitation": {"mu1": )" + std::to_string(mu1) +
@@ -65,6 +66,7 @@ TEST(ReportRun, HasTheNumbersWithTheirUnits) {
   for (const Fact& fact : facts) texts.push_back(fact.what + " = " + fact.value);
   EXPECT_THAT(texts,
               ElementsAre("reached = 40 t.u. (800 ms)", "period = 26.82 ± 0.37 t.u. (536.4 ± 7.4 ms), n = 9",
+                          "core: drift speed = 0.05 length units/t.u.", "core: radius = 1.77 length units",
                           "breakup = 17 t.u. (340 ms)", "tips = 12 ± 1"));
 }
 
@@ -132,6 +134,16 @@ TEST(Report, SeveralRunsStandSideBySide) {
               HasSubstr("<th scope=\"row\"><code>excitation.mu1</code></th><td>0.07</td><td>0.12</td>"));
   EXPECT_THAT(page, HasSubstr("<h2 id=\"run-1\">b</h2>"));
   EXPECT_TRUE(fs::exists(folder / "page/plots/1_probes_V.svg"));
+}
+
+// Periods 25, 24 against 29, 28: t = 4 / sqrt(1/2 (1/2 + 1/2)), two degrees of freedom, p = 0.0299.
+TEST(Report, TestsWhetherTwoRunsDiffer) {
+  const TemporaryFolder folder;
+  write_run(folder / "a");
+  write_run(folder / "b");
+  write(folder / "b/beats.csv", "probe,upstroke_tu,period_tu\n0,1,29\n0,30,28\n");
+  EXPECT_THAT(page_of(folder, {"b", "a"}), HasSubstr("difference +4.00; unpaired t-test p = 0.03;"));
+  EXPECT_THAT(page_of(folder, {"a"}), Not(HasSubstr("unpaired t-test")));
 }
 
 TEST(Report, TellsWhatIsMissingOrCutOff) {
