@@ -138,7 +138,7 @@ ReportRun::ReportRun(const fs::path& folder)
   beats_ = table("beats.csv", {"probe", "upstroke_tu", "period_tu", "apd90_tu", "di_tu"}, false);
 }
 
-CsvTable ReportRun::table(const char* file, std::vector<std::string> columns, bool expected) {
+CsvTable ReportRun::table(const char* file, const std::vector<std::string>& columns, bool expected) {
   const fs::path path = results_.folder() / file;
   if (!fs::exists(path)) {
     if (expected) notes_.push_back(fmt::format("There is no {}.", file));

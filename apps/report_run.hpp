@@ -52,7 +52,7 @@ class ReportRun {
   std::vector<NamedPlot> plots() const;
 
  private:
-  CsvTable table(const char* file, std::vector<std::string> columns, bool expected);
+  CsvTable table(const char* file, const std::vector<std::string>& columns, bool expected);
 
   std::string name_;
   RunResults results_;
