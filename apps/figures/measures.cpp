@@ -141,6 +141,17 @@ double time_at_edge(const RunResults& run) {
   return first;
 }
 
+Point mean_tip(const RunResults& run, double from) {
+  solver::RunningStatistics x, y;
+  for (const auto& [number, path] : paths_of(run))
+    for (std::size_t n = 0; n < path.t.size(); ++n) {
+      if (path.t[n] < from) continue;
+      x.add(path.x[n]);
+      y.add(path.y[n]);
+    }
+  return {x.result().mean, y.result().mean};
+}
+
 double core_speed(const RunResults& run, double from, double to) {
   const auto paths = paths_of(run);
   if (paths.empty()) return none;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/figures/recipe.hpp"
+#include "apps/picture.hpp"
 #include "apps/plot.hpp"
 #include "apps/run_results.hpp"
 #include "solver/run.hpp"
@@ -57,6 +58,10 @@ Series tip_paths(const RunResults&, std::string name);
 
 // When a tip first came within ten nodes of an edge, t.u.; NaN where none did.
 double time_at_edge(const RunResults&);
+
+// Mean place of the tips from a time on: the core's, where there is one tip and the time is that of whole
+// rotations.
+Point mean_tip(const RunResults&, double from);
 
 // Mean speed of the core of the longest path, its tip averaged over each rotation from `from` to `to` (t.u.);
 // length units/t.u. NaN where there are less than two rotations between.
