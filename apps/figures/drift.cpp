@@ -46,8 +46,7 @@ int starts_of(Extent extent) { return extent == Extent::full ? starts : 2; }
 
 Job start_job(int start, Extent extent) {
   SceneText scene = spiral_scene(compared_sheet, true, extent);
-  const double turned = std::round(50 * rotation_tu * start / starts) / 50;
-  scene.set("initial.precondition", fmt::format("[{{duration = {}}}]", turned));
+  begin_at_phase(scene, start, starts);
   return {start_name(start), scene.text(), {}};
 }
 

@@ -36,7 +36,8 @@ std::span<const int> sizes_of(Extent extent) {
   return extent == Extent::full ? std::span<const int>(full_sizes) : std::span<const int>(quick_sizes);
 }
 double duration(Extent extent) { return extent == Extent::full ? 1345 : 538; }  // 50 or 20 rotations
-int starts_of(Extent extent) { return extent == Extent::full ? 3 : 1; }
+constexpr int phases = 3;  // of a turn without contraction, that the starts are
+int starts_of(Extent extent) { return extent == Extent::full ? phases : 1; }
 
 SceneText spiral_scene(Extent extent) {
   SceneText scene = shipped_scene("drifting_spiral");
@@ -50,19 +51,13 @@ std::string size_name(int n, const Edges& edge, double mu1, int start) {
   return fmt::format("size_{}_{}_{}_start{}", n, edge.name, mu1, start);
 }
 
-// Starts are phases of a turn without contraction.
-void begin_at_phase(SceneText& scene, int start) {
-  const double turned = std::round(50 * rotation_tu * start / 3) / 50;
-  if (start > 0) scene.set("initial.precondition", fmt::format("[{{duration = {}}}]", turned));
-}
-
 Job size_job(int n, const Edges& edge, double mu1, int start, Extent extent) {
   SceneText scene = spiral_scene(extent);
   scene.set("grid.n", std::to_string(n))
       .set(edge.key, edge.value)
       .set("excitation.mu1", fmt::format("{}", mu1));
   if (mu1 == breakup_mu1) scene.set("time.stop_on", "[\"breakup\", \"death\"]");
-  begin_at_phase(scene, start);
+  begin_at_phase(scene, start, phases);
   return {size_name(n, edge, mu1, start), scene.text(), {}};
 }
 
@@ -74,7 +69,7 @@ Job tension_job(const Tension& tension, int start, Extent extent) {
   SceneText scene = spiral_scene(extent);
   scene.set("tension.law", fmt::format("\"{}\"", tension.law))
       .set("mechanics.p", fmt::format("{:.1f}", tension.p));
-  begin_at_phase(scene, start);
+  begin_at_phase(scene, start, phases);
   return {tension_name(tension, start), scene.text(), {}};
 }
 

@@ -25,6 +25,7 @@ std::map<int, TipPath> paths_of(const RunResults& run) {
              number = tips.numbers("trajectory");
   std::map<int, TipPath> paths;
   for (std::size_t n = 0; n < t.size(); ++n) {
+    if (!std::isfinite(number[n])) continue;  // of raw initial data
     TipPath& path = paths[static_cast<int>(number[n])];
     path.t.push_back(t[n]);
     path.x.push_back(x[n]);
@@ -139,6 +140,12 @@ double time_at_edge(const RunResults& run) {
   for (const double t : run.csv("trajectories.csv").numbers("boundary_tu"))
     if (std::isfinite(t) && !(t >= first)) first = t;
   return first;
+}
+
+void begin_at_phase(SceneText& scene, int start, int starts) {
+  if (start == 0) return;
+  const double turned = std::round(50 * rotation_tu * start / starts) / 50;  // a multiple of dt
+  scene.set("initial.precondition", fmt::format("[{{duration = {}}}]", turned));
 }
 
 Point mean_tip(const RunResults& run, double from) {

@@ -59,6 +59,10 @@ Series tip_paths(const RunResults&, std::string name);
 // When a tip first came within ten nodes of an edge, t.u.; NaN where none did.
 double time_at_edge(const RunResults&);
 
+// Contraction begins at phase number `start` of `starts` of a rigid turn; the first is the shipped state
+// itself.
+void begin_at_phase(SceneText&, int start, int starts);
+
 // Mean place of the tips from a time on: the core's, where there is one tip and the time is that of whole
 // rotations.
 Point mean_tip(const RunResults&, double from);
