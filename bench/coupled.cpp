@@ -40,7 +40,7 @@ void time_coupled(benchmark::State& state, int n, int interval, int steps) {
   try {
     for (auto _ : state) {
       state.PauseTiming();
-      sheet.emplace(ExecutionSpace(), scene, initial, phases, statistics);
+      sheet.emplace(solver::Execution{}, scene, initial, phases, statistics);
       sheet->solve_mechanics(0);  // contraction sets in at once: no interval of a run
       phases = {};
       statistics = {};
@@ -83,7 +83,7 @@ void time_startup(benchmark::State& state, int n) {
   solver::MechanicsStatistics statistics;
   double shortening = 0;
   measure(state, 1, [&] {
-    CoupledSheet<double> sheet(ExecutionSpace(), scene, rest, phases, statistics);
+    CoupledSheet<double> sheet(solver::Execution{}, scene, rest, phases, statistics);
     sheet.solve_mechanics(0);
     shortening = sheet.area().shortening;
   });

@@ -59,7 +59,7 @@ void time_interval(benchmark::State& state, const solver::Scene& scene) {
   solver::PhaseSeconds phases;
   solver::MechanicsStatistics statistics;
   try {
-    solver::Electromechanics<ExecutionSpace, double> sheet(ExecutionSpace(), scene, turbulent_state(n),
+    solver::Electromechanics<ExecutionSpace, double> sheet(solver::Execution{}, scene, turbulent_state(n),
                                                            phases, statistics);
     if (scene.mechanics) sheet.solve_mechanics(0);
     std::int64_t step = 0;

@@ -22,13 +22,13 @@ inline void flush_denormals_of_this_thread() {
 #endif
 }
 
-// On every thread of the host's default execution space and on the calling one.
-inline void flush_denormals() {
+// On every thread of the host's execution space and on the calling one.
+inline void flush_denormals(const Kokkos::DefaultHostExecutionSpace& host = {}) {
   using Host = Kokkos::DefaultHostExecutionSpace;
-  const int threads = Host().concurrency();
   Kokkos::parallel_for(
       "myowave::solver::flush_denormals",
-      Kokkos::RangePolicy<Host, Kokkos::Schedule<Kokkos::Static>>(0, threads).set_chunk_size(1),
+      Kokkos::RangePolicy<Host, Kokkos::Schedule<Kokkos::Static>>(host, 0, host.concurrency())
+          .set_chunk_size(1),
       [](int) { flush_denormals_of_this_thread(); });
   flush_denormals_of_this_thread();
 }

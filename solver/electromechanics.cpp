@@ -47,12 +47,13 @@ elastic::ElementGrid make_elements(const Scene& scene) {
   return {(scene.grid.rows - 1) / cells, (scene.grid.columns - 1) / cells, cells * scene.grid.dx};
 }
 
-template <class View>
-void upload(const View& view, const std::vector<double>& values) {
+template <class ExecutionSpace, class View>
+void upload(const ExecutionSpace& space, const View& view, const std::vector<double>& values) {
   using Real = typename View::non_const_value_type;
   auto host = Kokkos::create_mirror_view(Kokkos::WithoutInitializing, view);
   std::transform(values.begin(), values.end(), host.data(), [](double v) { return static_cast<Real>(v); });
-  Kokkos::deep_copy(view, host);
+  Kokkos::deep_copy(space, view, host);
+  space.fence("myowave::solver::upload");
 }
 
 // What is in use of a View with room for more.
@@ -65,9 +66,17 @@ auto first_rows(const Kokkos::View<DataType, Traits...>& view, std::size_t rows)
     return Kokkos::subview(view, range, Kokkos::ALL);
 }
 
-template <class View>
-std::vector<double> to_host(const View& view) {
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, view);
+// What the space has made of it, and of nothing that others have at work.
+template <class ExecutionSpace, class View>
+auto mirror_of(const ExecutionSpace& space, const View& view) {
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::view_alloc(space, Kokkos::HostSpace{}), view);
+  space.fence("myowave::solver::mirror_of");
+  return host;
+}
+
+template <class ExecutionSpace, class View>
+std::vector<double> to_host(const ExecutionSpace& space, const View& view) {
+  const auto host = mirror_of(space, view);
   return {host.data(), host.data() + host.size()};
 }
 
@@ -90,29 +99,24 @@ auto values_of(const tissue::ActiveStimulus& stimulus) {
                     r.radius2, stimulus.amplitude);
 }
 
-// For solves on a thread of their own: kernels of two threads may run at once where their instances
-// differ. One thread, for the others belong to the steps. Empty where the backend has a single
-// instance, or a single core for everything.
+// For solves on a thread of their own. One thread, for the others belong to the steps. Not where one core has
+// everything to do.
 template <class ExecutionSpace>
 std::optional<Kokkos::DefaultHostExecutionSpace> second_host_instance() {
-  using Host = Kokkos::DefaultHostExecutionSpace;
-#ifdef KOKKOS_ENABLE_OPENMP
-  if constexpr (std::is_same_v<Host, Kokkos::OpenMP>) return Kokkos::OpenMP(1);
-#endif
 #ifdef KOKKOS_ENABLE_SERIAL
-  if constexpr (std::is_same_v<Host, Kokkos::Serial> && !std::is_same_v<ExecutionSpace, Kokkos::Serial>)
-    return Kokkos::Serial(Kokkos::NewInstance{});
+  if constexpr (std::is_same_v<ExecutionSpace, Kokkos::Serial>) return std::nullopt;
 #endif
-  return std::nullopt;
+  return own_host_instance(1);
 }
 
 }  // namespace
 
 template <class ExecutionSpace, class Real>
-Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& space, const Scene& scene,
+Electromechanics<ExecutionSpace, Real>::Electromechanics(const Execution& execution, const Scene& scene,
                                                          const InitialState& state, PhaseSeconds& phases,
                                                          MechanicsStatistics& statistics)
-    : space_(space),
+    : space_(execution.device),
+      host_(execution.host),
       scene_(scene),
       phases_(&phases),
       statistics_(&statistics),
@@ -132,11 +136,11 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
       tip_count_("myowave::solver::tip_count"),
       tip_list_("myowave::solver::tip_list", first_tips),
       stimuli_("myowave::solver::stimuli", scene.stimuli.size()) {
-  upload(state_.V, state.V);
-  upload(state_.r, state.r);
+  upload(space_, state_.V, state.V);
+  upload(space_, state_.r, state.r);
   if (has_tension(scene)) {
     state_.Ta = View("myowave::solver::Ta", 1, grid_.rows, grid_.columns);
-    upload(state_.Ta, state.Ta);
+    upload(space_, state_.Ta, state.Ta);
   }
   if (scene.on_unstable == OnUnstable::substep) {
     kept_ = {View("myowave::solver::V_kept", 1, grid_.rows, grid_.columns),
@@ -158,8 +162,9 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
   for (const auto& [row, column] : scene.output.probes)
     nodes.push_back(static_cast<std::int64_t>(row) * grid_.columns + column);
   probe_nodes_ = Kokkos::View<std::int64_t*, Space>("myowave::solver::probe_nodes", nodes.size());
-  Kokkos::deep_copy(probe_nodes_,
+  Kokkos::deep_copy(space_, probe_nodes_,
                     Kokkos::View<const std::int64_t*, Kokkos::HostSpace>(nodes.data(), nodes.size()));
+  space_.fence("myowave::solver::probe_nodes");
 
   if (!scene.mechanics) return;
   const auto elements = make_elements(scene);
@@ -168,13 +173,12 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionSpace& s
   element_areas_ =
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
   const Timer timer(phases_->mechanics);
-  const Host host;
   if (scene.mechanics->overlap && contracts(scene)) solver_space_ = second_host_instance<ExecutionSpace>();
-  equilibrium_.emplace(host, elements, *scene.mechanics);
-  const SolveReport rest = equilibrium_->solve(host, gauss_tension_.host, 0);
+  equilibrium_.emplace(host_, elements, *scene.mechanics);
+  const SolveReport rest = equilibrium_->solve(host_, gauss_tension_.host, 0);
   statistics_->min_J = std::min(statistics_->min_J, rest.min_J);
-  observe::element_areas(host, elements, equilibrium_->nodes(), element_areas_);
-  host.fence("myowave::solver::rest_state");
+  observe::element_areas(host_, elements, equilibrium_->nodes(), element_areas_);
+  host_.fence("myowave::solver::rest_state");
   rest_areas_.assign(element_areas_.data(), element_areas_.data() + element_areas_.size());
 }
 
@@ -202,12 +206,12 @@ void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
     space_.fence("myowave::solver::begin_mechanics");
   }
   begun_ = BegunSolve{t, {}};
-  if (equilibrium_->is_solved_for(Host(), gauss_tension_.host)) return;
+  if (equilibrium_->is_solved_for(host_, gauss_tension_.host)) return;
   // Deferred: it is solved where it is taken.
   const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
   begun_->report = std::async(policy, [this, t] {
     if (solver_space_) flush_denormals_of_this_thread();
-    return equilibrium_->solve(solver_space_.value_or(Host()), gauss_tension_.host, t);
+    return equilibrium_->solve(solver_space_.value_or(host_), gauss_tension_.host, t);
   });
 }
 
@@ -250,8 +254,8 @@ template <class ExecutionSpace, class Real>
 bool Electromechanics<ExecutionSpace, Real>::take_nodes() {
   const auto& solved = equilibrium_->nodes();
   if (std::equal(solved.data(), solved.data() + solved.size(), nodes_.host.data())) return false;
-  Kokkos::deep_copy(Host(), nodes_.host, solved);
-  Host().fence("myowave::solver::take_nodes");
+  Kokkos::deep_copy(host_, nodes_.host, solved);
+  host_.fence("myowave::solver::take_nodes");
   return true;
 }
 
@@ -281,9 +285,8 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::measure_area() {
   const Timer timer(phases_->observe);
-  const Host host;
-  observe::element_areas(host, equilibrium_->grid(), nodes_.host, element_areas_);
-  host.fence("myowave::solver::measure_area");
+  observe::element_areas(host_, equilibrium_->grid(), nodes_.host, element_areas_);
+  host_.fence("myowave::solver::measure_area");
   const std::span<const double> areas(element_areas_.data(), element_areas_.size());
   area_ = {0, 0, areas[0] / rest_areas_[0], areas[0] / rest_areas_[0], 0};
   for (std::size_t e = 0; e < areas.size(); ++e) {
@@ -462,7 +465,7 @@ void Electromechanics<ExecutionSpace, Real>::look_at_activation(double t) {
 template <class ExecutionSpace, class Real>
 ActivationMaps Electromechanics<ExecutionSpace, Real>::activation_maps() const {
   const Timer timer(phases_->observe);
-  const auto records = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, activation_.records);
+  const auto records = mirror_of(space_, activation_.records);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   ActivationMaps maps;
   maps.rows = grid_.rows;
@@ -512,8 +515,8 @@ std::vector<double> Electromechanics<ExecutionSpace, Real>::probe_values() const
 
 template <class ExecutionSpace, class Real>
 InitialState Electromechanics<ExecutionSpace, Real>::download() const {
-  return {grid_.rows, grid_.columns, to_host(state_.V), to_host(state_.r),
-          has_tension(scene_) ? to_host(state_.Ta) : std::vector<double>(state_.V.size())};
+  return {grid_.rows, grid_.columns, to_host(space_, state_.V), to_host(space_, state_.r),
+          has_tension(scene_) ? to_host(space_, state_.Ta) : std::vector<double>(state_.V.size())};
 }
 
 template <class ExecutionSpace, class Real>

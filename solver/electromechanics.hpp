@@ -13,6 +13,7 @@
 #include "kernels/observe/phase_singularity.hpp"
 #include "solver/area_sample.hpp"
 #include "solver/equilibrium.hpp"
+#include "solver/execution.hpp"
 #include "solver/run.hpp"
 #include "solver/select_model.hpp"
 #include "solver/stability.hpp"
@@ -45,8 +46,7 @@ class Electromechanics {
 
   // Solves the loaded rest state (Ta = 0), the reference of all areas, where there is mechanics.
   // Errors: NumericalFailure.
-  Electromechanics(const ExecutionSpace&, const Scene&, const InitialState&, PhaseSeconds&,
-                   MechanicsStatistics&);
+  Electromechanics(const Execution&, const Scene&, const InitialState&, PhaseSeconds&, MechanicsStatistics&);
 
   // A solve may be at work on what is in here.
   Electromechanics(const Electromechanics&) = delete;
@@ -122,6 +122,7 @@ class Electromechanics {
   void refresh_metric(double t);
 
   ExecutionSpace space_;
+  Host host_;
   Scene scene_;
   PhaseSeconds* phases_;
   MechanicsStatistics* statistics_;

@@ -1,4 +1,4 @@
-// The two ways a run can end badly. apps/main.cpp turns them into exit status 2 and 3.
+// The ways a run can end before it is done. apps/main.cpp turns them into exit status 2, 3 and 75.
 #pragma once
 
 #include <stdexcept>
@@ -12,6 +12,11 @@ struct InputError : std::runtime_error {
 
 // The numerics failed: the message says time, place, state and what to do. Exit 3.
 struct NumericalFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The run was asked to stop and can go on later: no failure. Exit 75, EX_TEMPFAIL of sysexits.h.
+struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -73,9 +73,10 @@ template <class Real>
 class Stage {
  public:
   // Warnings and substeps go to `whole`, the summary of the run that the stage is a part of.
-  Stage(const Scene& scene, OutputSink& sink, RunSummary& summary, RunSummary& whole, std::string name,
-        bool observed)
+  Stage(const Scene& scene, const RunControl& control, OutputSink& sink, RunSummary& summary,
+        RunSummary& whole, std::string name, bool observed)
       : scene_(scene),
+        control_(control),
         sink_(sink),
         summary_(summary),
         whole_(whole),
@@ -86,7 +87,7 @@ class Stage {
 
   InitialState run(InitialState initial) {
     start_ = Clock::now();
-    Sheet sheet(Kokkos::DefaultExecutionSpace{}, scene_, initial, summary_.phases, summary_.mechanics);
+    Sheet sheet(control_.execution, scene_, initial, summary_.phases, summary_.mechanics);
     initial = {};  // the sheet has its own
     try {
       advance(sheet);
@@ -112,6 +113,8 @@ class Stage {
       if (observed_) sample(sheet);
       report_progress();
       if (step_ == schedule_.last) break;
+      if (control_.stop && *control_.stop)
+        throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", name_, t()));
       const std::int64_t first = step_;
       step_to(sheet, schedule_.next(step_));
       if (observed_) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
@@ -296,6 +299,7 @@ class Stage {
   double t() const { return static_cast<double>(step_) * scene_.time.dt; }
 
   const Scene& scene_;
+  const RunControl& control_;
   OutputSink& sink_;
   RunSummary& summary_;
   RunSummary& whole_;
@@ -313,11 +317,11 @@ class Stage {
   Clock::time_point start_, last_report_;
 };
 
-InitialState run_stage(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
-                       RunSummary& whole, const std::string& name, bool observed) {
+InitialState run_stage(const Scene& scene, const RunControl& control, InitialState state, OutputSink& sink,
+                       RunSummary& summary, RunSummary& whole, const std::string& name, bool observed) {
   return scene.precision == Precision::float32
-             ? Stage<float>(scene, sink, summary, whole, name, observed).run(std::move(state))
-             : Stage<double>(scene, sink, summary, whole, name, observed).run(std::move(state));
+             ? Stage<float>(scene, control, sink, summary, whole, name, observed).run(std::move(state))
+             : Stage<double>(scene, control, sink, summary, whole, name, observed).run(std::move(state));
 }
 
 Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
@@ -335,6 +339,13 @@ Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
   else
     throw InputError("initial.precondition: contraction = true needs a [mechanics] section");
   return stage;
+}
+
+void require_runnable(const Scene& scene, const InitialState& state) {
+  if (state.rows != scene.grid.rows || state.columns != scene.grid.columns)
+    throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
+                                 scene.grid.rows, scene.grid.columns));
+  require_stable_step(scene);
 }
 
 }  // namespace
@@ -381,25 +392,36 @@ InitialState make_initial_state(const Scene& scene) {
   throw InputError("this initial state comes from a file or from the cache, not from a formula");
 }
 
-InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary) {
-  if (state.rows != scene.grid.rows || state.columns != scene.grid.columns)
-    throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
-                                 scene.grid.rows, scene.grid.columns));
-  require_stable_step(scene);
+InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
+                 const RunControl& control) {
+  state = run_preconditions(scene, std::move(state), sink, summary, control);
+  return run_preconditioned(scene, std::move(state), sink, summary, control);
+}
+
+InitialState run_preconditions(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
+                               const RunControl& control) {
+  require_runnable(scene, state);
   const std::vector<Scene> stages = stages_of(scene);
   require_clean_start(stages.front(), state);
-  flush_denormals();
-  summary.plan = make_plan(scene);
-  for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
+  flush_denormals(control.execution.host);
   const std::size_t preconditions = stages.size() - 1;
   for (std::size_t n = 0; n < preconditions; ++n) {
     RunSummary unused;
     const auto start = Clock::now();
-    state = run_stage(stages[n], std::move(state), sink, unused, summary,
+    state = run_stage(stages[n], control, std::move(state), sink, unused, summary,
                       fmt::format("precondition {} of {}", n + 1, preconditions), false);
     summary.precondition_s += seconds_since(start);
   }
-  return run_stage(stages.back(), std::move(state), sink, summary, summary, "run", true);
+  return state;
+}
+
+InitialState run_preconditioned(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
+                                const RunControl& control) {
+  require_runnable(scene, state);
+  flush_denormals(control.execution.host);
+  summary.plan = make_plan(scene);
+  for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
+  return run_stage(scene, control, std::move(state), sink, summary, summary, "run", true);
 }
 
 }  // namespace myowave::solver

@@ -1,6 +1,7 @@
 // The whole run: order of a step, sampling, watchers, summary. See model order in solver/README.md.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "solver/activation_maps.hpp"
 #include "solver/conduction_velocity.hpp"
+#include "solver/execution.hpp"
 #include "solver/plan.hpp"
 #include "solver/scene.hpp"
 #include "solver/statistics.hpp"
@@ -141,10 +143,25 @@ void require_stable_step(const Scene&);
 // Errors: InputError for the other types.
 InitialState make_initial_state(const Scene&);
 
+// How a run is run. What it computes does not depend on it.
+struct RunControl {
+  Execution execution{};
+  const std::atomic<bool>* stop = nullptr;  // true: the run ends at its next look, by Interrupted
+};
+
 // Runs the preconditions and then the scene. `summary` is kept current, so that it tells how far
-// the run came when NumericalFailure leaves this function.
+// the run came when an error leaves this function.
 // Returns the final state.
-// Errors: InputError (require_stable_step, require_clean_start, sizes that do not fit), NumericalFailure.
-InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary);
+// Errors: InputError (require_stable_step, require_clean_start, sizes that do not fit), NumericalFailure,
+// Interrupted.
+InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary, const RunControl& = {});
+
+// The two parts of it, for scenes that have their preconditions in common: run_preconditioned() from the
+// state that run_preconditions() left gives the bits of run(). Of the summary, the first fills
+// precondition_s, the steps in parts and their warnings.
+InitialState run_preconditions(const Scene&, InitialState, OutputSink&, RunSummary& summary,
+                               const RunControl& = {});
+InitialState run_preconditioned(const Scene&, InitialState, OutputSink&, RunSummary& summary,
+                                const RunControl& = {});
 
 }  // namespace myowave::solver

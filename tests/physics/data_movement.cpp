@@ -113,7 +113,8 @@ template <class Real>
 class Sheet {
  public:
   explicit Sheet(const solver::Scene& scene)
-      : scene_(scene), sheet_(Space(), scene_, solver::make_initial_state(scene_), phases_, statistics_) {}
+      : scene_(scene),
+        sheet_(solver::Execution{}, scene_, solver::make_initial_state(scene_), phases_, statistics_) {}
 
   Recording solve() {
     return record([&] { sheet_.solve_mechanics(t()); });

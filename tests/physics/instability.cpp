@@ -80,8 +80,8 @@ template <class Real = double>
 Unguarded step_unguarded(const Scene& scene) {
   solver::PhaseSeconds phases;
   solver::MechanicsStatistics statistics;
-  solver::Electromechanics<Space, Real> sheet(Space(), scene, solver::make_initial_state(scene), phases,
-                                              statistics);
+  solver::Electromechanics<Space, Real> sheet(solver::Execution{}, scene, solver::make_initial_state(scene),
+                                              phases, statistics);
   const auto stretch = static_cast<std::int64_t>(std::ceil(2 / scene.time.dt));
   Unguarded seen;
   for (std::int64_t step = 0; seen.t < scene.time.t_end && !seen.fault;) {
