@@ -159,8 +159,10 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const Execution& execut
   }
 
   std::vector<std::int64_t> nodes;
-  for (const auto& [row, column] : scene.output.probes)
+  for (const auto& [row, column] : scene.output.probes) {
     nodes.push_back(static_cast<std::int64_t>(row) * grid_.columns + column);
+    probe_rows_ |= std::uint64_t(1) << row % 64;
+  }
   probe_nodes_ = Kokkos::View<std::int64_t*, Space>("myowave::solver::probe_nodes", nodes.size());
   Kokkos::deep_copy(space_, probe_nodes_,
                     Kokkos::View<const std::int64_t*, Kokkos::HostSpace>(nodes.data(), nodes.size()));
@@ -345,7 +347,8 @@ void Electromechanics<ExecutionSpace, Real>::take_steps(std::int64_t first, std:
 
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, double dt) {
-  const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns};
+  const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns,
+                                                   probe_rows_};
   const auto take = [&](const auto& diffusion) {
     with_model(scene_, model_, [&](const auto& model) {
       tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record, &active_);

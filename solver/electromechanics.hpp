@@ -148,6 +148,7 @@ class Electromechanics {
   using Record = Kokkos::View<Real**, Kokkos::LayoutRight, Space>;
   std::vector<double> probe_history_;
   Kokkos::View<std::int64_t*, Space> probe_nodes_;  // linear index of each probe
+  std::uint64_t probe_rows_ = 0;                    // see observe::ProbeRecorder
   Mirrored<Record> probe_record_;                   // (step, probe)
   Mirrored<Record> probe_values_;                   // (V, r, Ta; probe)
   Mirrored<Kokkos::View<int, Space>> tip_count_;

@@ -39,12 +39,13 @@ template <class Real, class MemorySpace>
 struct ProbeRecorder {
   Kokkos::View<const std::int64_t*, MemorySpace> nodes;
   Kokkos::View<Real**, Kokkos::LayoutRight, MemorySpace> record;
-  int columns;  // of the sheet
+  int columns;                             // of the sheet
+  std::uint64_t rows = ~std::uint64_t(0);  // bit i % 64: row i may have a probe
 
   template <class Columns>
   KOKKOS_FUNCTION void operator()(const Columns& lanes, int m, int i, int step, int begin, int end,
                                   const Real* V) const {
-    if (m != 0) return;
+    if (m != 0 || (rows >> (i & 63) & 1) == 0) return;
     const std::int64_t first = static_cast<std::int64_t>(i) * columns + begin;
     for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p) {
       const std::int64_t place = nodes(p) - first;
