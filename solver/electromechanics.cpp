@@ -212,9 +212,9 @@ void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
   // Deferred: it is solved where it is taken.
   const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
   begun_->report = std::async(policy, [this, t] {
-    if (solver_space_) flush_denormals_of_this_thread();
-    return equilibrium_->solve(solver_space_.value_or(host_), gauss_tension_.host, t);
-  });
+                     if (solver_space_) flush_denormals_of_this_thread();
+                     return equilibrium_->solve(solver_space_.value_or(host_), gauss_tension_.host, t);
+                   }).share();
 }
 
 template <class ExecutionSpace, class Real>
@@ -520,6 +520,44 @@ template <class ExecutionSpace, class Real>
 InitialState Electromechanics<ExecutionSpace, Real>::download() const {
   return {grid_.rows, grid_.columns, to_host(space_, state_.V), to_host(space_, state_.r),
           has_tension(scene_) ? to_host(space_, state_.Ta) : std::vector<double>(state_.V.size())};
+}
+
+template <class ExecutionSpace, class Real>
+bool Electromechanics<ExecutionSpace, Real>::save(StateWriter& writer) {
+  space_.fence("myowave::solver::save");
+  state(writer);
+  if (!equilibrium_) return true;
+  SolveReport report;
+  const bool begun = begun_.has_value(), solved = begun && begun_->report.valid();
+  if (solved) {
+    const Timer timer(phases_->mechanics);
+    try {
+      report = begun_->report.get();
+    } catch (const NumericalFailure&) {
+      return false;
+    }
+  }
+  equilibrium_->save(writer);
+  writer(begun, begun ? begun_->t : 0.0, solved, report);
+  return true;
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::load(StateReader& reader, double t) {
+  state(reader);
+  if (!equilibrium_) return;
+  equilibrium_->load(host_, reader);
+  bool begun = false, solved = false;
+  BegunSolve solve{0, {}};
+  SolveReport report;
+  reader(begun, solve.t, solved, report);
+  if (solved) {
+    std::promise<SolveReport> made;
+    made.set_value(report);
+    solve.report = made.get_future().share();
+  }
+  if (begun) begun_ = std::move(solve);
+  if (first_solve_taken_) refresh_metric(t);
 }
 
 template <class ExecutionSpace, class Real>

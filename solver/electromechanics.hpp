@@ -11,6 +11,7 @@
 
 #include "kernels/observe/activation.hpp"
 #include "kernels/observe/phase_singularity.hpp"
+#include "solver/archive.hpp"
 #include "solver/area_sample.hpp"
 #include "solver/equilibrium.hpp"
 #include "solver/execution.hpp"
@@ -105,10 +106,25 @@ class Electromechanics {
 
   InitialState download() const;
   std::vector<double> download_nodes() const;
+
+  // All that the steps to come depend on, between two steps. A solve that is begun is waited for, and is
+  // taken when it is due. False where it has failed: what ends the run at its time cannot be kept.
+  bool save(StateWriter&);
+  // Of a sheet of the same scene, at time t. Errors: StateMismatch.
+  void load(StateReader&, double t);
   bool more_stimuli(double t) const { return schedule_.more_to_come(t); }
   double stimulus_period() const { return schedule_.last_period(); }
 
  private:
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, active_, area_, activation_look_,
+            first_solve_taken_);
+    // Where rest is only near zero, what lies outside the box is read.
+    if (scene_.quiescent > 0) archive(spare_.V, spare_.r, spare_.Ta);
+    if (scene_.output.maps) archive(activation_.marks, activation_.records);
+    if (equilibrium_) archive(gauss_tension_.host, nodes_.host, element_areas_);
+  }
   void begin_mechanics(double t);
   void add_to_statistics(const SolveReport&);
   bool take_nodes();  // of the solve; true where one has moved
@@ -159,8 +175,8 @@ class Electromechanics {
   std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
 
   struct BegunSolve {
-    double t;                         // of its tension
-    std::future<SolveReport> report;  // none where the solve is left out
+    double t;                                // of its tension
+    std::shared_future<SolveReport> report;  // none where the solve is left out
   };
   std::optional<Host> solver_space_;  // of solves on a thread of their own
   bool first_solve_taken_ = false;

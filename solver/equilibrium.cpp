@@ -58,6 +58,10 @@ struct Equilibrium<ExecutionSpace>::Impl {
   Tension mixed_Ta;   // of a part of a ramp
   // The solver's last factor is of the tangent at `start`, under the tension of before.
   bool start_has_factor = false;
+  // The last factor is of K + factor_shift L here.
+  Nodes<MemorySpace> factor_nodes;
+  Tension factor_Ta;
+  double factor_shift = 0;
   bool in_equilibrium = false;  // false: `nodes` are undeformed
 
   Impl(const ExecutionSpace& space, const elastic::ElementGrid& grid_in, const MechanicsSettings& settings_in)
@@ -76,7 +80,14 @@ struct Equilibrium<ExecutionSpace>::Impl {
         energy("myowave::elastic::element_energy", 2, grid.elements()),
         energy_host(Kokkos::create_mirror_view(energy)),
         solved_Ta("myowave::elastic::solved_Ta", grid.elements()),
-        mixed_Ta("myowave::elastic::mixed_Ta", grid.elements()) {}
+        mixed_Ta("myowave::elastic::mixed_Ta", grid.elements()),
+        factor_nodes("myowave::elastic::factor_nodes", grid.nodes()),
+        factor_Ta("myowave::elastic::factor_Ta", grid.elements()) {}
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(nodes, solved_Ta, in_equilibrium, start_has_factor, factor_nodes, factor_Ta, factor_shift);
+  }
 
   // The sheet under one tension, as Newton sees it; see solver/newton.hpp.
   struct Problem {
@@ -138,6 +149,12 @@ struct Equilibrium<ExecutionSpace>::Impl {
                                 .energy_unit = undeformed_energy * grid.elements() * grid.h * grid.h};
     effort.add(Newton(problem, solver, newton).minimise(start_has_factor));
     start_has_factor = effort.last.converged && (start_has_factor || effort.last.factorizations > 0);
+    if (effort.last.converged && effort.last.factorizations > 0) {
+      // The last factor led from here to `current`, which took its place.
+      Kokkos::deep_copy(space, factor_nodes, tried);
+      Kokkos::deep_copy(space, factor_Ta, Ta);
+      factor_shift = effort.last.last_shift;
+    }
     return effort.last.converged;
   }
 
@@ -267,6 +284,19 @@ void Equilibrium<ExecutionSpace>::reset(const ExecutionSpace& space) {
 template <class ExecutionSpace>
 const elastic::ElementGrid& Equilibrium<ExecutionSpace>::grid() const {
   return impl_->grid;
+}
+
+template <class ExecutionSpace>
+void Equilibrium<ExecutionSpace>::save(StateWriter& writer) const {
+  writer(*impl_);
+}
+
+template <class ExecutionSpace>
+void Equilibrium<ExecutionSpace>::load(const ExecutionSpace& space, StateReader& reader) {
+  reader(*impl_);
+  if (!impl_->start_has_factor) return;
+  impl_->system.assemble(space, impl_->membrane, impl_->grid, impl_->factor_nodes, impl_->factor_Ta);
+  impl_->solver.factorize(impl_->system.tangent(impl_->factor_shift));
 }
 
 template class Equilibrium<Kokkos::DefaultHostExecutionSpace>;

@@ -7,6 +7,7 @@
 
 #include "kernels/base/views.hpp"
 #include "kernels/elastic/element_grid.hpp"
+#include "solver/archive.hpp"
 #include "solver/newton.hpp"
 #include "solver/scene.hpp"
 
@@ -53,6 +54,12 @@ class Equilibrium {
   void reset(const ExecutionSpace&);
 
   const elastic::ElementGrid& grid() const;
+
+  // What the next solve depends on. Of the last factor, which a solve begins with, what it was made from is
+  // kept: load() makes it again, the same to the bit.
+  // Errors: StateMismatch.
+  void save(StateWriter&) const;
+  void load(const ExecutionSpace&, StateReader&);
 
  private:
   struct Impl;

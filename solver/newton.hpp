@@ -72,6 +72,7 @@ struct NewtonReport {
   std::int64_t shifts = 0;  // factorisations of K + mu L
   std::int64_t halvings = 0;
   double largest_shift = 0;  // kPa
+  double last_shift = 0;     // kPa, of the last factor
   double residual = std::numeric_limits<double>::infinity();
   double energy = 0;
   double min_J = 0;
@@ -132,6 +133,7 @@ class Newton {
   // A step with a new factor; true where one was accepted.
   bool step(Trial& current, double shift, NewtonReport& report) {
     ++report.factorizations;
+    report.last_shift = shift;
     if (shift > 0) ++report.shifts;
     const Factorization factorization =
         timed(report.time.factorize, [&] { return solver_.factorize(problem_.tangent(shift)); });

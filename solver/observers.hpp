@@ -44,6 +44,11 @@ class Observers {
 
   void add_area(const AreaSample& area) { areas_.push_back(area); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(beats_, breakup_, trajectories_, tip_counts_, areas_);
+  }
+
   // stimulus_period: 0 where there is no periodic stimulus.
   void write(Observables&, double t, double stimulus_period) const;
 

@@ -50,6 +50,11 @@ class BeatRecorder {
   // Those that the upstroke after them, or finish(), has completed since the last call.
   std::vector<ProbeBeat> take() { return std::exchange(complete_, {}); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(probes_, complete_, period_, apd_, apd90_);
+  }
+
   MeanSd period() const { return period_.result(); }
   MeanSd apd() const { return apd_.result(); }
   MeanSd apd90() const { return apd90_.result(); }

@@ -68,28 +68,40 @@ void warn(OutputSink& sink, RunSummary& summary, const std::string& text) {
   sink.warning(text);
 }
 
+struct StageRole {
+  std::size_t number;  // from 0, preconditions first
+  std::string name;
+  bool observed;
+};
+
 // One stage: the scene itself, or a precondition of it (unobserved).
 template <class Real>
 class Stage {
  public:
   // Warnings and substeps go to `whole`, the summary of the run that the stage is a part of.
   Stage(const Scene& scene, const RunControl& control, OutputSink& sink, RunSummary& summary,
-        RunSummary& whole, std::string name, bool observed)
+        RunSummary& whole, StageRole role)
       : scene_(scene),
         control_(control),
         sink_(sink),
         summary_(summary),
         whole_(whole),
-        name_(std::move(name)),
-        observed_(observed),
+        role_(std::move(role)),
         schedule_(scene),
         observers_(scene) {}
 
-  InitialState run(InitialState initial) {
+  // From the initial state, or from where the reader's state was saved.
+  InitialState run(InitialState initial, StateReader* saved) {
     start_ = Clock::now();
     Sheet sheet(control_.execution, scene_, initial, summary_.phases, summary_.mechanics);
     initial = {};  // the sheet has its own
+    if (saved) load(sheet, *saved);
+    kept_ = step_;
     try {
+      if (!saved) {
+        require_no_fault(sheet.find_fault(0, 0));
+        arrive(sheet);
+      }
       advance(sheet);
     } catch (...) {
       end(sheet);
@@ -102,25 +114,69 @@ class Stage {
  private:
   using Sheet = Electromechanics<Kokkos::DefaultExecutionSpace, Real>;
 
-  // The order of a step: solve the mechanics and refresh the metric, sample, then the Euler step.
+  // But for the sheet.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(step_, schedule_.last, substeps_, substepped_steps_, largest_substeps_, last_fault_,
+            warned_of_tension_, warned_of_ellipticity_, tips_, observers_, summary_.phases,
+            summary_.mechanics, whole_.warnings, whole_.substepped_steps, whole_.largest_substeps,
+            whole_.precondition_s);
+  }
+
   void advance(Sheet& sheet) {
-    require_no_fault(sheet.find_fault(0, 0));
-    for (step_ = 0;;) {
-      if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0 && sheet.solve_mechanics(t()))
-        observers_.add_area(sheet.area());
-      look_at_tension(sheet);
-      look_at_ellipticity();
-      if (observed_) sample(sheet);
-      report_progress();
-      if (step_ == schedule_.last) break;
-      if (control_.stop && *control_.stop)
-        throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", name_, t()));
+    while (step_ != schedule_.last) {
+      keep_if_due(sheet);
       const std::int64_t first = step_;
       step_to(sheet, schedule_.next(step_));
-      if (observed_) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
+      if (role_.observed) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
       show_beats();
+      arrive(sheet);
     }
     if (sheet.finish_mechanics(t())) observers_.add_area(sheet.area());
+  }
+
+  // The order at a step: solve the mechanics and refresh the metric, then sample; the Euler step comes after.
+  void arrive(Sheet& sheet) {
+    if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0 && sheet.solve_mechanics(t()))
+      observers_.add_area(sheet.area());
+    look_at_tension(sheet);
+    look_at_ellipticity();
+    if (role_.observed) sample(sheet);
+    report_progress();
+  }
+
+  void keep_if_due(Sheet& sheet) {
+    const bool stop = control_.stop && *control_.stop;
+    const double every = scene_.output.checkpoint_every;
+    const bool due = every > 0 && static_cast<double>(step_ - kept_) * scene_.time.dt >= every - 1e-9;
+    if (control_.checkpoints && (stop || due) && !keep(sheet, stop)) return;
+    if (stop) throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", role_.name, t()));
+  }
+
+  // A run that goes on loses nothing by a checkpoint that cannot be written: the one before is still there,
+  // and the next may find room again. False where the next solve will end the run.
+  bool keep(Sheet& sheet, bool stop) {
+    StateWriter writer;
+    writer(role_.number, seconds_since(start_) + wall_before_);
+    state(writer);
+    if (!sheet.save(writer)) return false;
+    output([&] {
+      try {
+        control_.checkpoints->keep(writer, step_, t(), sink_.mark());
+      } catch (const std::runtime_error& error) {
+        if (stop) throw;
+        warn(sink_, whole_, fmt::format("t = {:.6g} t.u.: no checkpoint: {}", t(), error.what()));
+      }
+    });
+    kept_ = step_;
+    return true;
+  }
+
+  void load(Sheet& sheet, StateReader& saved) {
+    saved(wall_before_);
+    state(saved);
+    sheet.load(saved, t());
+    if (!saved.at_end()) throw StateMismatch();
   }
 
   void step_to(Sheet& sheet, std::int64_t next) {
@@ -265,8 +321,8 @@ class Stage {
     constexpr double every_s = 0.1;
     if (step_ != 0 && step_ != schedule_.last && seconds_since(last_report_) < every_s) return;
     last_report_ = Clock::now();
-    sink_.progress(
-        {t(), scene_.time.t_end, name_, cell_steps_per_s(), summary_.mechanics.newton_iterations, tips_});
+    sink_.progress({t(), scene_.time.t_end, role_.name, cell_steps_per_s(),
+                    summary_.mechanics.newton_iterations, tips_});
   }
 
   // The summary first: it is to be told also where an output fails.
@@ -274,14 +330,14 @@ class Stage {
     observe([&] { observers_.finish(); });
     update_summary(sheet);
     show_beats();
-    if (observed_) show_ended_trajectories();
+    if (role_.observed) show_ended_trajectories();
     if (scene_.output.maps) show_maps(sheet.activation_maps());
   }
 
   void update_summary(const Sheet& sheet) {
     summary_.steps = step_;
     summary_.t = t();
-    summary_.wall_s = seconds_since(start_);
+    summary_.wall_s = seconds_since(start_) + wall_before_;
     summary_.cell_steps_per_s = cell_steps_per_s();
     observe([&] { observers_.write(summary_.observables, t(), sheet.stimulus_period()); });
     if (substepped_steps_ == 0) return;
@@ -289,11 +345,12 @@ class Stage {
     whole_.largest_substeps = std::max<std::int64_t>(whole_.largest_substeps, largest_substeps_);
     warn(sink_, whole_,
          fmt::format("{}: {} of {} steps were taken in parts, at most {}, because dt = {} was unstable",
-                     name_, substepped_steps_, step_, largest_substeps_, scene_.time.dt));
+                     role_.name, substepped_steps_, step_, largest_substeps_, scene_.time.dt));
   }
 
   double cell_steps_per_s() const {
-    return static_cast<double>(step_) * scene_.grid.rows * scene_.grid.columns / seconds_since(start_);
+    return static_cast<double>(step_) * scene_.grid.rows * scene_.grid.columns /
+           (seconds_since(start_) + wall_before_);
   }
 
   double t() const { return static_cast<double>(step_) * scene_.time.dt; }
@@ -303,8 +360,7 @@ class Stage {
   OutputSink& sink_;
   RunSummary& summary_;
   RunSummary& whole_;
-  std::string name_;
-  bool observed_;
+  StageRole role_;
   Schedule schedule_;
   Observers observers_;
   std::int64_t step_ = 0;
@@ -314,14 +370,16 @@ class Stage {
   std::string last_fault_;
   bool warned_of_tension_ = false, warned_of_ellipticity_ = false;
   int tips_ = 0;
+  std::int64_t kept_ = 0;   // step of the last checkpoint
+  double wall_before_ = 0;  // s, of the parts before this one
   Clock::time_point start_, last_report_;
 };
 
-InitialState run_stage(const Scene& scene, const RunControl& control, InitialState state, OutputSink& sink,
-                       RunSummary& summary, RunSummary& whole, const std::string& name, bool observed) {
+InitialState run_stage(const Scene& scene, const RunControl& control, InitialState state, StateReader* saved,
+                       OutputSink& sink, RunSummary& summary, RunSummary& whole, const StageRole& role) {
   return scene.precision == Precision::float32
-             ? Stage<float>(scene, control, sink, summary, whole, name, observed).run(std::move(state))
-             : Stage<double>(scene, control, sink, summary, whole, name, observed).run(std::move(state));
+             ? Stage<float>(scene, control, sink, summary, whole, role).run(std::move(state), saved)
+             : Stage<double>(scene, control, sink, summary, whole, role).run(std::move(state), saved);
 }
 
 Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
@@ -346,6 +404,24 @@ void require_runnable(const Scene& scene, const InitialState& state) {
     throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
                                  scene.grid.rows, scene.grid.columns));
   require_stable_step(scene);
+}
+
+// What a run goes on from, and in which stage. Keeps a reference to the checkpoint.
+struct Saved {
+  StateReader reader;
+  std::size_t stage = 0;
+
+  explicit Saved(const FoundCheckpoint& checkpoint) : reader(checkpoint.state()) { reader(stage); }
+};
+
+std::optional<Saved> saved_of(const RunControl& control) {
+  return control.resume ? std::optional<Saved>(std::in_place, *control.resume) : std::nullopt;
+}
+
+// In place of an initial state that a saved one is put over.
+InitialState blank_state(const Scene& scene) {
+  const std::vector<double> zero(static_cast<std::size_t>(scene.grid.rows) * scene.grid.columns);
+  return {scene.grid.rows, scene.grid.columns, zero, zero, zero};
 }
 
 }  // namespace
@@ -400,28 +476,36 @@ InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSu
 
 InitialState run_preconditions(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
                                const RunControl& control) {
+  auto saved = saved_of(control);
+  if (saved) state = blank_state(scene);
   require_runnable(scene, state);
   const std::vector<Scene> stages = stages_of(scene);
-  require_clean_start(stages.front(), state);
+  if (!saved) require_clean_start(stages.front(), state);
   flush_denormals(control.execution.host);
   const std::size_t preconditions = stages.size() - 1;
-  for (std::size_t n = 0; n < preconditions; ++n) {
-    RunSummary unused;
-    const auto start = Clock::now();
-    state = run_stage(stages[n], control, std::move(state), sink, unused, summary,
-                      fmt::format("precondition {} of {}", n + 1, preconditions), false);
-    summary.precondition_s += seconds_since(start);
+  for (std::size_t n = saved ? saved->stage : 0; n < preconditions; ++n) {
+    RunSummary own;
+    StateReader* const from = saved && saved->stage == n ? &saved->reader : nullptr;
+    state = run_stage(stages[n], control, std::move(state), from, sink, own, summary,
+                      {n, fmt::format("precondition {} of {}", n + 1, preconditions), false});
+    summary.precondition_s += own.wall_s;
   }
   return state;
 }
 
 InitialState run_preconditioned(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
                                 const RunControl& control) {
+  const std::size_t stage = scene.initial.preconditions.size();
+  auto saved = saved_of(control);
+  const bool goes_on = saved && saved->stage == stage;
+  if (goes_on) state = blank_state(scene);
   require_runnable(scene, state);
   flush_denormals(control.execution.host);
   summary.plan = make_plan(scene);
-  for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
-  return run_stage(scene, control, std::move(state), sink, summary, summary, "run", true);
+  if (!goes_on)
+    for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
+  return run_stage(scene, control, std::move(state), goes_on ? &saved->reader : nullptr, sink, summary,
+                   summary, {stage, "run", true});
 }
 
 }  // namespace myowave::solver

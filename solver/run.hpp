@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/activation_maps.hpp"
+#include "solver/checkpoint.hpp"
 #include "solver/conduction_velocity.hpp"
 #include "solver/execution.hpp"
 #include "solver/plan.hpp"
@@ -85,6 +86,9 @@ class OutputSink {
   virtual void progress(const Progress&) {}
   // At the time that the run comes to know; all stand in RunSummary::warnings too.
   virtual void warning(const std::string&) {}
+  // What it needs to go on with its outputs from here, for its own use (solver/checkpoint.hpp). What it
+  // speaks of is safe on the disk.
+  virtual std::string mark() { return {}; }
   // True: fields() is wanted at `every` (it costs a copy to the host).
   virtual bool wants_fields() const { return false; }
 };
@@ -147,13 +151,18 @@ InitialState make_initial_state(const Scene&);
 struct RunControl {
   Execution execution{};
   const std::atomic<bool>* stop = nullptr;  // true: the run ends at its next look, by Interrupted
+  // Where checkpoints go, at output.checkpoint_every and when the run is asked to stop.
+  CheckpointKeeper* checkpoints = nullptr;
+  // What the run goes on from, of the same scene; the initial state is not looked at then.
+  const FoundCheckpoint* resume = nullptr;
 };
 
 // Runs the preconditions and then the scene. `summary` is kept current, so that it tells how far
 // the run came when an error leaves this function.
 // Returns the final state.
 // Errors: InputError (require_stable_step, require_clean_start, sizes that do not fit), NumericalFailure,
-// Interrupted.
+// Interrupted, StateMismatch where the checkpoint is none of this scene and program, std::runtime_error where
+// the run is to stop and its checkpoint cannot be written.
 InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary, const RunControl& = {});
 
 // The two parts of it, for scenes that have their preconditions in common: run_preconditioned() from the

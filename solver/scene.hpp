@@ -119,6 +119,7 @@ struct OutputSettings {
   bool tension = true;                     // Ta is shown, or another run starts from it
   std::vector<std::array<int, 2>> probes;  // (row, column); empty in a file: the four default ones
   double period_from = 100;                // t.u.
+  double checkpoint_every = 0;             // t.u.; 0: only where the run is asked to stop
 };
 
 struct Scene {

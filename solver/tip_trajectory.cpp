@@ -187,7 +187,7 @@ void TipTrajectories::look(double t, std::span<Tip> tips) {
     }
   const auto births = explain(born_tips, reach);
   for (std::size_t n = 0; n < born.size(); ++n) {
-    Live live{{}, {}, RotationMeter(scene_.grid.dx)};
+    Live live = new_live();
     live.trajectory.number = next_number_++;
     live.trajectory.charge = born[n]->charge;
     live.trajectory.birth = t;

@@ -68,6 +68,12 @@ class RotationMeter {
   std::optional<TipCore> core() const;
   std::optional<TipDrift> drift() const;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(points_, corner_, heading_, heading_time_, turned_, sums_, points_in_rotations_, first_, sum_t_,
+            sum_tt_, sum_x_, sum_y_, sum_tx_, sum_ty_);
+  }
+
  private:
   struct Point {
     double t, x, y;
@@ -119,12 +125,21 @@ class TipTrajectories {
   // Of those that have ended.
   const std::optional<TipTrajectory>& longest() const { return longest_; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    std::size_t living = live_.size();
+    archive(living, last_look_, next_number_, ended_, counts_, longest_);
+    if constexpr (Archive::loads) live_.assign(living, new_live());
+    for (auto& live : live_) archive(live.trajectory, live.tip, live.rotations);
+  }
+
  private:
   struct Live {
     TipTrajectory trajectory;
     Tip tip;  // at the last look
     RotationMeter rotations;
   };
+  Live new_live() const { return {{}, {}, RotationMeter(scene_.grid.dx)}; }
   double to_edge(const Tip&) const;
   std::vector<TipEvent> explain(const std::vector<Tip>&, double reach) const;
   void follow(Live&, double t, Tip&);

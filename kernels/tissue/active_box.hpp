@@ -28,6 +28,12 @@ class ActiveBox {
         largest_V_(ordered(Real(tolerance))),
         largest_Ta_(ordered(Real(tolerance * k_Ta))) {}
 
+  // Part of the state of a run (solver/archive.hpp).
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(box_);
+  }
+
   // Other steps were taken: anything can be anywhere.
   void forget() { box_ = whole(grid_); }
 

@@ -1,0 +1,328 @@
+// A run that is stopped and goes on from its checkpoint is the run that was never stopped, to the bit.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "solver/checkpoint.hpp"
+#include "solver/error.hpp"
+#include "solver/run.hpp"
+#include "tests/support/own_process.hpp"
+#include "tests/support/recording_sink.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace myowave {
+namespace {
+
+// Everything that leaves a run, as one text: numbers to the bit.
+class Transcript : public solver::OutputSink {
+ public:
+  void fields(const solver::Frame& frame) override {
+    add("fields {:a}", frame.t), add(frame.V), add(frame.r), add(frame.Ta), add(frame.nodes);
+  }
+  void probes(double t, std::span<const double> values) override { add("probes {:a}", t), add(values); }
+  void tips(double t, std::span<const solver::Tip> tips) override {
+    add("tips {:a}", t);
+    for (const auto& tip : tips) add(" {:a} {:a} {} {}", tip.x, tip.y, tip.charge, tip.trajectory);
+  }
+  void beat(const solver::ProbeBeat& one) override {
+    const auto& [upstroke, period, apd, apd90, di] = one.beat;
+    add("beat {} {:a} {:a} {:a} {:a} {:a}", one.probe, upstroke, period, apd, apd90, di);
+  }
+  void trajectory(const solver::TipTrajectory& one) override {
+    add("trajectory {} {} {:a} {:a} {} {}", one.number, one.charge, one.birth, one.death, int(one.born),
+        int(one.ended));
+    if (one.core) add(" {:a} {:a} {:a} {}", one.core->x, one.core->y, one.core->radius, one.core->rotations);
+    if (one.drift) add(" {:a} {:a}", one.drift->speed, one.drift->direction);
+  }
+  void area(double t, double total, double min, double max) override {
+    add("area {:a} {:a} {:a} {:a}", t, total, min, max);
+  }
+  void element_areas(double t, std::span<const double> ratios) override { add("areas {:a}", t), add(ratios); }
+  void maps(const solver::ActivationMaps& maps) override {
+    add("maps"), add(maps.activation), add(maps.period), add(maps.period_sd), add(maps.apd);
+  }
+  void warning(const std::string& text) override { add("warning {}", text); }
+  bool wants_fields() const override { return true; }
+
+  // What came until a checkpoint is all that was said when it was kept; what came after is said again.
+  std::string mark() override { return std::to_string(text_.size()); }
+  void go_on_from(const std::string& mark) { text_.resize(std::stoul(mark)); }
+
+  void add_summary(const solver::RunSummary& s) {
+    const auto& o = s.observables;
+    add("summary {} {:a} {} {} {} {}", s.steps, s.t, s.substepped_steps, s.largest_substeps,
+        s.warnings.size(), o.trajectories.n);
+    const auto& m = s.mechanics;
+    add(" {} {} {} {} {} {} {} {:a}", m.solves, m.left_out, m.newton_iterations, m.newton_max,
+        m.factorizations, m.shifts, m.not_elliptic, m.min_J);
+    for (const auto* value : {&o.period, &o.apd, &o.apd90, static_cast<const solver::MeanSd*>(&o.tips)})
+      add(" {:a} {:a} {}", value->mean, value->sd, value->n);
+    add(" {:a} {:a}", o.breakup_tu.value_or(-1), o.death_tu.value_or(-1));
+    if (o.area) add(" {:a} {:a}", o.area->first, o.area->second);
+    if (o.shortening) add(" {:a} {:a}", o.shortening->first, o.shortening->second);
+  }
+  void add_state(const solver::InitialState& s) { add("state"), add(s.V), add(s.r), add(s.Ta); }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  template <class... Values>
+  void add(const char* format, const Values&... values) {
+    text_ += fmt::vformat(format, fmt::make_format_args(values...)) + '\n';
+  }
+  void add(std::span<const double> values) {
+    const auto at = text_.size();
+    text_.resize(at + values.size_bytes());
+    if (!values.empty()) std::memcpy(text_.data() + at, values.data(), values.size_bytes());
+    text_ += '\n';
+  }
+
+  std::string text_;
+};
+
+// Asks the run to stop after so many samples of tips.
+class StoppingTranscript : public Transcript {
+ public:
+  std::atomic<bool> stop = false;
+  int stop_after = -1;  // < 0: never
+
+  void tips(double t, std::span<const solver::Tip> tips) override {
+    Transcript::tips(t, tips);
+    if (stop_after >= 0 && stop_after-- == 0) stop = true;
+  }
+};
+
+solver::Scene spiral(bool contracts) {
+  solver::Scene scene;
+  scene.grid = {61, 61, 0.6};
+  scene.time.t_end = 16;
+  scene.excitation.mu1 = 0.1;
+  if (contracts) {
+    scene.mechanics.emplace();
+    scene.mechanics->interval = 35;  // of no look's multiple
+  }
+  scene.initial.type = solver::InitialSettings::Type::broken_front;
+  scene.output.every = 4;
+  scene.output.tips_every = 0.4;
+  scene.output.probes = {{20, 20}, {40, 31}};
+  scene.output.period_from = 0;
+  return scene;
+}
+
+std::string undisturbed(const solver::Scene& scene) {
+  Transcript told;
+  solver::RunSummary summary;
+  told.add_state(solver::run(scene, solver::make_initial_state(scene), told, summary));
+  told.add_summary(summary);
+  return told.text();
+}
+
+// Stopped after each `samples` samples and gone on with, by a keeper as a new process has it.
+std::string in_parts(const solver::Scene& scene, int samples, int* parts = nullptr) {
+  const test::TemporaryFolder folder;
+  StoppingTranscript told;
+  for (int part = 0;; ++part) {
+    std::vector<std::string> refused;
+    const auto found = solver::find_checkpoint(folder.path() / "checkpoints", refused);
+    EXPECT_TRUE(refused.empty());
+    EXPECT_EQ(found.has_value(), part > 0);
+    if (found) told.go_on_from(found->mark);
+    solver::CheckpointKeeper keeper(folder.path() / "checkpoints", "a run", found ? &*found : nullptr);
+    told.stop = false;
+    told.stop_after = samples;
+    solver::RunSummary summary;
+    const solver::RunControl control{
+        .stop = &told.stop, .checkpoints = &keeper, .resume = found ? &*found : nullptr};
+    try {
+      auto initial = found ? solver::InitialState{} : solver::make_initial_state(scene);
+      told.add_state(solver::run(scene, std::move(initial), told, summary, control));
+      told.add_summary(summary);
+      if (parts != nullptr) *parts = part + 1;
+      return told.text();
+    } catch (const solver::Interrupted&) {
+    }
+  }
+}
+
+struct Case {
+  std::string name;
+  std::function<void(solver::Scene&)> change;
+  bool contracts = true;
+};
+
+class Resume : public testing::TestWithParam<Case> {};
+
+TEST_P(Resume, GivesTheBitsOfARunThatWasNeverStopped) {
+  solver::Scene scene = spiral(GetParam().contracts);
+  GetParam().change(scene);
+  const std::string whole = undisturbed(scene);
+  int parts = 0;
+  EXPECT_TRUE(in_parts(scene, 0, &parts) == whole);
+  EXPECT_GE(parts, 20);
+  EXPECT_TRUE(in_parts(scene, 6) == whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, Resume,
+    testing::Values(Case{"rigid", [](solver::Scene&) {}, false}, Case{"contracting", [](solver::Scene&) {}},
+                    Case{"float32", [](solver::Scene& s) { s.precision = solver::Precision::float32; }},
+                    Case{"expanded", [](solver::Scene& s) { s.metric = solver::MetricForm::expanded; }},
+                    Case{"overlap", [](solver::Scene& s) { s.mechanics->overlap = true; }},
+                    Case{"fixed_edges", [](solver::Scene& s) { s.mechanics->edges = solver::Edges::fixed; }},
+                    Case{"quiescent", [](solver::Scene& s) { s.quiescent = 1e-3; }, false},
+                    Case{"without_tension", [](solver::Scene& s) { s.output.tension = false; }, false},
+                    Case{"maps",
+                         [](solver::Scene& s) {
+                           s.output.maps = s.output.element_areas = true;
+                           s.time.t_end = 20;
+                         }},
+                    Case{"stop_on_breakup",
+                         [](solver::Scene& s) {
+                           s.time.stop_on.breakup = s.time.stop_on.death = true;
+                           s.time.t_end = 60;
+                         }},
+                    Case{"substeps",
+                         [](solver::Scene& s) {
+                           s.on_unstable = solver::OnUnstable::substep;
+                           s.time.dt = 0.05;
+                           s.tension.k_Ta = 55;
+                           s.output.tips_every = 0.5;
+                         }},
+                    Case{"stimulus",
+                         [](solver::Scene& s) {
+                           s.stimuli.push_back({.start = 3.3,
+                                                .period = 5,
+                                                .duration = 1.1,
+                                                .amplitude = 2,
+                                                .count = -1,
+                                                .shape = solver::Stimulus::Shape::block,
+                                                .columns = {0, 3},
+                                                .rows = {0, 60}});
+                         }}),
+    [](const auto& one) { return one.param.name; });
+
+// Those of preconditions are kept where checkpoint_every asks for them: nothing is sampled then.
+TEST(ResumeOfAPrecondition, GivesTheBitsOfARunThatWasNeverStopped) {
+  solver::Scene scene = spiral(true);
+  scene.initial.preconditions = {{.duration = 4, .contraction = false, .excitation = {}, .tension = {}},
+                                 {.duration = 6, .contraction = true, .excitation = {}, .tension = {}}};
+  const std::string whole = undisturbed(scene);
+  scene.output.checkpoint_every = 1.3;
+
+  // Stops at what the run reports of its stage.
+  struct InStage : Transcript {
+    std::atomic<bool> stop = false;
+    std::string stage;
+    void progress(const solver::Progress& p) override { stop = stop || p.stage == stage; }
+  };
+  for (const std::string stage : {"precondition 1 of 2", "precondition 2 of 2"}) {
+    SCOPED_TRACE(stage);
+    const test::TemporaryFolder folder;
+    InStage told;
+    told.stage = stage;
+    solver::CheckpointKeeper keeper(folder.path(), "a run");
+    solver::RunSummary summary;
+    EXPECT_THROW(solver::run(scene, solver::make_initial_state(scene), told, summary,
+                             {.stop = &told.stop, .checkpoints = &keeper}),
+                 solver::Interrupted);
+    std::vector<std::string> refused;
+    const auto found = solver::find_checkpoint(folder.path(), refused);
+    ASSERT_TRUE(found);
+    Transcript rest;
+    solver::RunSummary of_rest;
+    rest.add_state(solver::run(scene, {}, rest, of_rest, {.resume = &*found}));
+    rest.add_summary(of_rest);
+    EXPECT_TRUE(rest.text() == whole);
+  }
+}
+
+// With checkpoint_every a run leaves its last two, from either of which it goes on.
+TEST(Checkpoints, ComeAtTheirIntervalAndTheLastTwoStay) {
+  solver::Scene scene = spiral(true);
+  const std::string whole = undisturbed(scene);
+  scene.output.checkpoint_every = 3;
+  const test::TemporaryFolder folder;
+  solver::CheckpointKeeper keeper(folder.path(), "a run");
+  Transcript told;
+  solver::RunSummary summary;
+  told.add_state(
+      solver::run(scene, solver::make_initial_state(scene), told, summary, {.checkpoints = &keeper}));
+  told.add_summary(summary);
+  EXPECT_TRUE(told.text() == whole);
+
+  std::vector<std::string> refused;
+  for (const double t : {15.0, 12.0}) {
+    const auto found = solver::find_checkpoint(folder.path(), refused);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->t, t, 0.2);
+    Transcript rest = told;
+    rest.go_on_from(found->mark);
+    solver::RunSummary of_rest;
+    rest.add_state(solver::run(scene, {}, rest, of_rest, {.resume = &*found}));
+    rest.add_summary(of_rest);
+    EXPECT_TRUE(rest.text() == whole);
+    std::filesystem::remove(found->file);
+  }
+  EXPECT_FALSE(solver::find_checkpoint(folder.path(), refused));
+  EXPECT_TRUE(refused.empty());
+}
+
+TEST(Checkpoints, OfAnotherSceneAreRefused) {
+  const test::TemporaryFolder folder;
+  solver::Scene scene = spiral(true);
+  scene.output.checkpoint_every = 3;
+  solver::CheckpointKeeper keeper(folder.path(), "a run");
+  Transcript told;
+  solver::RunSummary summary;
+  solver::run(scene, solver::make_initial_state(scene), told, summary, {.checkpoints = &keeper});
+  std::vector<std::string> refused;
+  const auto found = solver::find_checkpoint(folder.path(), refused);
+  ASSERT_TRUE(found);
+  for (const auto& change : std::initializer_list<std::function<void(solver::Scene&)>>{
+           [](solver::Scene& s) { s.grid.rows = 71; }, [](solver::Scene& s) { s.mechanics.reset(); },
+           [](solver::Scene& s) { s.precision = solver::Precision::float32; },
+           [](solver::Scene& s) { s.output.maps = true; }}) {
+    solver::Scene other = scene;
+    change(other);
+    EXPECT_THROW(solver::run(other, {}, told, summary, {.resume = &*found}), solver::StateMismatch);
+  }
+}
+
+// Another number of threads goes on with the same bits.
+TEST(Checkpoints, GoOnWithAnotherNumberOfThreads) {
+  if (Kokkos::DefaultExecutionSpace::name() != std::string("OpenMP"))
+    GTEST_SKIP() << "the number of threads is not OpenMP's";
+  solver::Scene scene = spiral(true);
+  const auto folder = std::filesystem::temp_directory_path() / "myowave_test_resume_threads";
+  if (const std::string path = test::report_path(); !path.empty()) {
+    std::vector<std::string> refused;
+    const auto found = solver::find_checkpoint(folder, refused);
+    Transcript rest;
+    solver::RunSummary summary;
+    rest.add_state(solver::run(scene, {}, rest, summary, {.resume = &*found}));
+    rest.add_summary(summary);
+    std::ofstream(path) << std::hash<std::string>()(rest.text());
+    return;
+  }
+  std::filesystem::remove_all(folder);
+  StoppingTranscript told;
+  told.stop_after = 11;
+  solver::CheckpointKeeper keeper(folder, "a run");
+  solver::RunSummary summary;
+  EXPECT_THROW(solver::run(scene, solver::make_initial_state(scene), told, summary,
+                           {.stop = &told.stop, .checkpoints = &keeper}),
+               solver::Interrupted);
+  const std::string one = test::report_of_own_process("OMP_NUM_THREADS=1");
+  EXPECT_GT(one.size(), 5U);
+  EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=3"), one);
+  keeper.remove_all();
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+}  // namespace
+}  // namespace myowave
