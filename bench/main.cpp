@@ -111,6 +111,7 @@ int main(int argc, char** argv) {
   bench::register_coupled(suite);
   bench::register_pruning(suite);
   bench::register_ensemble(suite);
+  bench::register_checkpoint(suite);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return bench::any_failed() ? 1 : 0;

@@ -42,6 +42,7 @@ void register_solve(const Suite&);
 void register_coupled(const Suite&);
 void register_pruning(const Suite&);
 void register_ensemble(const Suite&);
+void register_checkpoint(const Suite&);
 
 template <class Real>
 constexpr const char* precision_name = sizeof(Real) == sizeof(double) ? "float64" : "float32";
