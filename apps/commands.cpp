@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -23,7 +24,9 @@
 #include "apps/reproduce.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/scene_file.hpp"
+#include "apps/scene_source.hpp"
 #include "apps/schema.hpp"
+#include "apps/signals.hpp"
 #include "apps/stability.hpp"
 #include "myowave_version.hpp"
 #include "solver/error.hpp"
@@ -52,13 +55,16 @@ class Device {
   bool owned_ = false;
 };
 
-solver::Scene load(const std::string& file, std::vector<std::string> overrides,
-                   const std::optional<double>& until) {
+std::vector<std::string> with_end(std::vector<std::string> overrides, const std::optional<double>& until) {
   if (until && !(std::isfinite(*until) && *until >= 0)) {
     throw solver::InputError(fmt::format("--until must be a time >= 0 (t.u.), not {}", *until));
   }
   if (until) overrides.push_back(fmt::format("time.t_end={}", *until));
-  solver::Scene scene = read_scene(file, overrides);
+  return overrides;
+}
+
+solver::Scene load(const SceneSource& source) {
+  solver::Scene scene = source.scene();
   solver::require_stable_step(scene);
   require_memory(scene);
   return scene;
@@ -131,10 +137,65 @@ void print_time(const solver::Scene& scene) {
   }
 }
 
+// Runs, or goes on from a checkpoint, and leaves what came of it in the folder.
+solver::RunSummary run_into(RunFolder& folder, const std::filesystem::path& out, const solver::Scene& scene,
+                            solver::InitialState initial, solver::CheckpointKeeper& keeper,
+                            const solver::FoundCheckpoint* from) {
+  solver::RunSummary summary;
+  try {
+    solver::run(scene, std::move(initial), folder, summary,
+                {.stop = &stop_requested(), .checkpoints = &keeper, .resume = from});
+  } catch (const std::exception& failure) {
+    try {
+      folder.write_summary(summary, failure.what());
+    } catch (const std::exception&) {
+      // A full disk may refuse the summary too; what ended the run is what the user needs to know.
+    }
+    if (dynamic_cast<const solver::Interrupted*>(&failure) == nullptr) throw;
+    throw solver::Interrupted(
+        fmt::format("{}; go on with: myowave run --resume {}", failure.what(), out.string()));
+  }
+  folder.write_summary(summary, std::nullopt);
+  keeper.remove_all();
+  return summary;
+}
+
+// A run that has ended has no checkpoints, and a summary without a failure.
+bool has_ended(const std::filesystem::path& out) {
+  std::ifstream file(out / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  return summary.is_object() && summary.contains("failure") && summary["failure"].is_null();
+}
+
+void resume(const std::filesystem::path& out, bool quiet) {
+  std::vector<std::string> refused;
+  const auto found = solver::find_checkpoint(out / checkpoints_name, refused);
+  for (const auto& line : refused) fmt::print(stderr, "myowave: not used: {}\n", line);
+  if (!found && has_ended(out)) {
+    if (!quiet) fmt::print("{}: the run has ended, there is nothing to go on with\n", out.string());
+    return;
+  }
+  if (!found)
+    throw solver::InputError(
+        fmt::format("{}: there is no checkpoint to go on from{}; begin the run again, with --force",
+                    out.string(), refused.empty() ? "" : " that is sound"));
+  const solver::Scene scene = load(source_from(found->identity));
+  const Device device;
+  RunFolder folder(out, scene, found->mark, quiet);
+  solver::CheckpointKeeper keeper(out / checkpoints_name, found->identity, &*found);
+  if (!quiet) fmt::print(stderr, "myowave: goes on from {}, t = {:g} t.u.\n", found->file.string(), found->t);
+  const auto summary = run_into(folder, out, scene, {}, keeper, &*found);
+  if (!quiet) print_result(scene, summary, out);
+}
+
 }  // namespace
 
 void run(const RunRequest& request) {
-  const solver::Scene scene = load(request.scene, request.overrides, request.until);
+  watch_signals();
+  if (request.resume) return resume(*request.resume, request.quiet);
+  if (request.scene.empty()) throw solver::InputError("name a scene to run, or a folder with --resume");
+  const SceneSource source = read_source(request.scene, with_end(request.overrides, request.until));
+  const solver::Scene scene = load(source);
   const std::filesystem::path out =
       request.out ? std::filesystem::path(*request.out) : std::filesystem::path("out") / scene.name;
   // Everything that can refuse the run comes before its folder, where --force replaces old results.
@@ -147,23 +208,13 @@ void run(const RunRequest& request) {
 
   RunFolder folder(out, scene, request.force, request.quiet);
   folder.write_manifest(effective_configuration(scene));
-  solver::RunSummary summary;
-  try {
-    solver::run(scene, std::move(initial), folder, summary);
-  } catch (const std::exception& failure) {
-    try {
-      folder.write_summary(summary, failure.what());
-    } catch (const std::exception&) {
-      // A full disk may refuse the summary too; what ended the run is what the user needs to know.
-    }
-    throw;
-  }
-  folder.write_summary(summary, std::nullopt);
+  solver::CheckpointKeeper keeper(out / checkpoints_name, source.json());
+  const auto summary = run_into(folder, out, scene, std::move(initial), keeper, nullptr);
   if (!request.quiet) print_result(scene, summary, out);
 }
 
 void check(const std::string& file, const std::vector<std::string>& overrides) {
-  const solver::Scene scene = load(file, overrides, std::nullopt);
+  const solver::Scene scene = load(read_source(file, overrides));
   const solver::InitialSettings& initial = scene.initial;
   if (initial.type == solver::InitialSettings::Type::file) {
     read_state(initial.file, scene.grid.rows, scene.grid.columns, initial.window);

@@ -13,11 +13,12 @@ struct RunRequest {
   std::optional<std::string> out;  // absent: out/<scene name> in the working directory
   std::optional<double> until;     // t.u., in place of time.t_end
   std::vector<std::string> overrides;
+  std::optional<std::string> resume;  // result folder of a run to go on with; nothing else is given then
   bool force = false;
   bool quiet = false;
 };
 
-// Errors: InputError; NumericalFailure, after what was computed is on disk.
+// Errors: InputError; NumericalFailure, Interrupted, after what was computed is on disk.
 void run(const RunRequest&);
 
 // Says what the scene models and what it leaves out, the memory and the time it takes. Leaves nothing behind.

@@ -1,7 +1,13 @@
 #include "apps/fields_file.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <system_error>
 #include <utility>
 
+#include "apps/file_io.hpp"
 #include "myowave_version.hpp"
 
 namespace myowave::apps {
@@ -11,7 +17,12 @@ namespace {
 constexpr unsigned deflate_level = 1;
 constexpr hsize_t times_per_chunk = 128;
 
-Hdf5Handle create_file(const std::string& path, const std::string& what) {
+// Half of the entries of a node of a chunk index, which HDF5 takes as 16 bits.
+unsigned index_width(std::size_t frames) {
+  return static_cast<unsigned>(std::clamp<std::size_t>((frames + 1) / 2 + 1, 32, 32767));
+}
+
+Hdf5Handle create_file(const std::string& path, const std::string& what, std::size_t expected_frames) {
   start_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
   // Without the writer's lock the file opens in other programs while the run goes on; each frame is
@@ -19,15 +30,20 @@ Hdf5Handle create_file(const std::string& path, const std::string& what) {
   check_hdf5(H5Pset_file_locking(access, false, true), what);
   // Chunks go to the disk when they are written, before the flush writes the index that names them.
   check_hdf5(H5Pset_cache(access, 0, 0, 0, 0), what);
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, what};
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
+  check_hdf5(H5Pset_istore_k(creation, index_width(expected_frames)), what);
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, what};
 }
 
 std::string failing(const std::filesystem::path& path) { return "cannot write " + path.string(); }
 
 }  // namespace
 
-FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, double ms_per_tu)
-    : path_(std::move(path)), shape_(shape), file_(create_file(path_.string(), failing(path_))) {
+FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, double ms_per_tu,
+                       std::size_t expected_frames)
+    : path_(std::move(path)),
+      shape_(shape),
+      file_(create_file(path_.string(), failing(path_), expected_frames)) {
   const auto rows = hsize_t(shape.rows), columns = hsize_t(shape.columns);
   write_attribute(file_, "program", std::string("myowave ") + version);
   write_attribute(file_, "dx", shape.dx);
@@ -45,6 +61,41 @@ FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, doub
   }
   check_hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), failing(path_));
 }
+
+FieldsFile::FieldsFile(const std::filesystem::path& path, const FrameShape& shape, double ms_per_tu,
+                       std::size_t expected_frames, std::size_t frames)
+    : FieldsFile(path.string() + ".tmp", shape, ms_per_tu, expected_frames) {
+  copy_frames(path, frames);
+  sync();
+  std::filesystem::rename(path_, path);
+  path_ = path;
+}
+
+void FieldsFile::copy_frames(const std::filesystem::path& from, std::size_t frames) {
+  const std::string what = fmt::format("cannot go on with {}", from.string());
+  // Its writer may have died between the note of a new size and the size itself.
+  constexpr std::uintmax_t room = 1 << 20;
+  std::error_code error;
+  std::filesystem::resize_file(from, std::filesystem::file_size(from, error) + room, error);
+  if (error) throw std::runtime_error(fmt::format("{}: {}", what, error.message()));
+  const Hdf5Handle file = open_hdf5(from);
+  const auto read = [&](const char* name, std::size_t n) {
+    const StoredDataset dataset = open_dataset(file, name);
+    if (dataset.size[0] <= n)
+      throw std::runtime_error(
+          fmt::format("{}: {} of the {} frames that it had are there", what, dataset.size[0], frames));
+    return read_frame(dataset, n);
+  };
+  for (std::size_t n = 0; n < frames; ++n) {
+    const auto V = read("V", n), r = read("r", n);
+    const auto Ta = shape_.tension ? read("Ta", n) : std::vector<double>();
+    const auto nodes = shape_.deforms() ? read("nodes", n) : std::vector<double>();
+    append({read("time", n)[0], shape_.rows, shape_.columns, shape_.element_rows(), shape_.element_columns(),
+            V, r, Ta, nodes});
+  }
+}
+
+void FieldsFile::sync() { sync_file(path_); }
 
 FieldsFile::Dataset FieldsFile::create(const char* name, std::vector<hsize_t> frame, hid_t file_type,
                                        const char* unit, const char* description) {

@@ -7,7 +7,9 @@
 //   grid   [frame, row, column, 2] grid nodes x1, x2, float32, what a viewer draws V on
 //
 // A rigid run has neither nodes nor grid. Each frame is a chunk, compressed, and is flushed: a file
-// whose writer died, or whose disk is full, holds the frames before.
+// whose writer died, or whose disk is full, holds the frames before. For that the index of a dataset's chunks
+// has room for all of them in one node, which is written over in one piece; an index that grows is torn for a
+// moment.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +26,17 @@ namespace myowave::apps {
 class FieldsFile {
  public:
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
-  FieldsFile(std::filesystem::path, const FrameShape&, double ms_per_tu);
+  // expected_frames: at most so many are to come; more are an index that grows.
+  FieldsFile(std::filesystem::path, const FrameShape&, double ms_per_tu, std::size_t expected_frames);
+  // Goes on with a file that is there, whatever came of what follows its first `frames` frames: these are
+  // copied into a new one, which takes its place. Errors: std::runtime_error, also where they are not there.
+  FieldsFile(const std::filesystem::path&, const FrameShape&, double ms_per_tu, std::size_t expected_frames,
+             std::size_t frames);
 
   void append(const solver::Frame&);
   std::size_t frames() const { return frames_; }
+  // All frames are on the disk when this returns.
+  void sync();
 
  private:
   struct Dataset {
@@ -36,6 +45,7 @@ class FieldsFile {
   };
   Dataset create(const char* name, std::vector<hsize_t> frame, hid_t file_type, const char* unit,
                  const char* description);
+  void copy_frames(const std::filesystem::path& from, std::size_t frames);
   void extend(const Dataset&, hid_t memory_type, const void* values);
   void append_datasets(const solver::Frame&);
 

@@ -1,5 +1,6 @@
 #include "apps/file_io.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -23,6 +24,14 @@ void write_all(std::FILE* file, std::string_view content, const std::filesystem:
 
 }  // namespace
 
+void sync_file(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw_errno(path, errno);
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  if (error != 0) throw_errno(path, error);
+}
+
 void replace_file(const std::filesystem::path& path, std::string_view content) {
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.tmp", getpid());
@@ -42,6 +51,24 @@ AppendedFile::AppendedFile(std::filesystem::path path, std::string_view header)
     : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
   if (!file_) throw_errno(path_, errno);
   write_all(file_.get(), header, path_);
+}
+
+AppendedFile::AppendedFile(std::filesystem::path path, std::uintmax_t size) : path_(std::move(path)) {
+  std::error_code error;
+  const auto there = std::filesystem::file_size(path_, error);
+  if (error || there < size)
+    throw std::runtime_error(
+        fmt::format("cannot go on with {}: {}", path_.string(),
+                    error ? error.message() : fmt::format("{} of its {} bytes are there", there, size)));
+  std::filesystem::resize_file(path_, size, error);
+  if (error) throw_errno(path_, error.value());
+  file_.reset(std::fopen(path_.c_str(), "r+b"));
+  if (!file_ || std::fseek(file_.get(), 0, SEEK_END) != 0) throw_errno(path_, errno);
+}
+
+std::uintmax_t AppendedFile::sync() {
+  sync_file(path_);
+  return std::filesystem::file_size(path_);
 }
 
 void AppendedFile::append(std::string_view rows) { write_all(file_.get(), rows, path_); }

@@ -1,6 +1,7 @@
 // Writes that tell about their failure: which file, and why.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,15 +14,25 @@ namespace myowave::apps {
 // Errors: std::runtime_error "cannot write FILE: reason".
 void replace_file(const std::filesystem::path&, std::string_view content);
 
+// What was written to the file is on the disk when this returns.
+// Errors: std::runtime_error "cannot write FILE: reason".
+void sync_file(const std::filesystem::path&);
+
 // A text that grows. Each append is handed to the system at once, so that whole rows are on disk
 // when the process dies.
 class AppendedFile {
  public:
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
   AppendedFile(std::filesystem::path, std::string_view header);
+  // Goes on with a file that is there, cut to this size.
+  // Errors: std::runtime_error that names the file where it is not there or smaller.
+  AppendedFile(std::filesystem::path, std::uintmax_t size);
   void append(std::string_view rows);
   // The same, over the last `tail` bytes of what was written.
   void append_over_tail(std::string_view text, long tail);
+  // Bytes, all of which are on the disk when this returns.
+  std::uintmax_t sync();
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   struct Close {

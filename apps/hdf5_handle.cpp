@@ -37,6 +37,37 @@ void start_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+Hdf5Handle open_hdf5(const std::filesystem::path& file) {
+  start_hdf5();
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, file.string());
+  // Reading needs no lock, and a run that still writes the file may hold one.
+  check_hdf5(H5Pset_file_locking(access, false, true), file.string());
+  return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, file.string()};
+}
+
+StoredDataset open_dataset(hid_t file, const char* name) {
+  StoredDataset dataset{{H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, name}, {}};
+  const Hdf5Handle space(H5Dget_space(dataset.id), H5Sclose, name);
+  dataset.size.resize(std::size_t(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, dataset.size.data(), nullptr);
+  return dataset;
+}
+
+std::vector<double> read_frame(const StoredDataset& dataset, std::size_t n) {
+  std::vector<hsize_t> start(dataset.size.size(), 0), count = dataset.size;
+  start[0] = n;
+  count[0] = 1;
+  std::size_t values = 1;
+  for (const hsize_t extent : count) values *= extent;
+  const Hdf5Handle source(H5Dget_space(dataset.id), H5Sclose, "frame");
+  check_hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+             "frame");
+  const Hdf5Handle target(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose, "frame");
+  std::vector<double> frame(values);
+  check_hdf5(H5Dread(dataset.id, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, frame.data()), "frame");
+  return frame;
+}
+
 void write_attribute(hid_t object, const char* name, const std::string& text) {
   const std::string what = std::string("attribute ") + name;
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, what);

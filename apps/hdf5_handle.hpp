@@ -3,9 +3,12 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace myowave::apps {
 
@@ -46,6 +49,18 @@ void check_hdf5(herr_t status, const std::string& what);
 // and HDF5 does nothing at exit (its clean-up crashes where a file could not be flushed, on a full
 // disk; the handles have closed all others by then).
 void start_hdf5();
+
+// To read, also while a run writes it.
+Hdf5Handle open_hdf5(const std::filesystem::path&);
+
+struct StoredDataset {
+  Hdf5Handle id;
+  std::vector<hsize_t> size;
+};
+StoredDataset open_dataset(hid_t file, const char* name);
+
+// Frame n of a dataset whose first index is the frame; of one without others, the number.
+std::vector<double> read_frame(const StoredDataset&, std::size_t n);
 
 void write_attribute(hid_t object, const char* name, const std::string& text);
 void write_attribute(hid_t object, const char* name, double value);

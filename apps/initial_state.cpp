@@ -10,6 +10,7 @@
 #include <optional>
 #include <random>
 
+#include "apps/signals.hpp"
 #include "apps/state_cache.hpp"
 #include "solver/error.hpp"
 
@@ -102,7 +103,7 @@ InitialState settle(const solver::Scene& scene, solver::OutputSink& progress) {
   return cached_state(cached_state_path("settled_spiral", text), text, [&] {
     SettlingProgress told(progress);
     solver::RunSummary summary;
-    return solver::run(scene, solver::make_initial_state(scene), told, summary);
+    return solver::run(scene, solver::make_initial_state(scene), told, summary, {.stop = &stop_requested()});
   });
 }
 

@@ -1,5 +1,5 @@
 // The `myowave` command: reads the command line, calls apps/commands.hpp, turns errors into exit
-// status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed.
+// status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed, 75 stopped on request.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,15 +22,23 @@ namespace {
 
 using namespace myowave;
 
-void add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& overrides) {
-  command.add_option("SCENE", scene, "Scene file (TOML); `myowave describe` lists its keys")->required();
-  command
-      .add_option("--set", overrides,
-                  "Value in place of the file's: section.key=value. Strings need no quotes. Repeat for more")
-      ->type_name("KEY=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+struct SceneOptions {
+  CLI::Option *scene, *set;
+};
+
+SceneOptions add_scene(CLI::App& command, std::string& scene, std::vector<std::string>& overrides) {
+  CLI::Option* const file =
+      command.add_option("SCENE", scene, "Scene file (TOML); `myowave describe` lists its keys")->required();
+  CLI::Option* const set =
+      command
+          .add_option(
+              "--set", overrides,
+              "Value in place of the file's: section.key=value. Strings need no quotes. Repeat for more")
+          ->type_name("KEY=VALUE")
+          ->take_all()
+          ->expected(1)
+          ->allow_extra_args(false);
+  return {file, set};
 }
 
 int guarded(const std::function<void()>& command) {
@@ -43,6 +51,9 @@ int guarded(const std::function<void()>& command) {
   } catch (const solver::NumericalFailure& error) {
     fmt::print(stderr, "myowave: the numerics failed: {}\n", error.what());
     return 3;
+  } catch (const solver::Interrupted& stopped) {
+    fmt::print(stderr, "myowave: {}\n", stopped.what());
+    return 75;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "myowave: out of memory\n");
   } catch (const std::exception& error) {
@@ -58,16 +69,26 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("myowave {} ({})", version, git_hash));
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed.\n"
+      "Exit status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed,\n"
+      "75 stopped on request, to be gone on with.\n"
       "Example: myowave run apps/scenes/quickstart.toml --set excitation.mu1=0.1 --until 50");
 
   apps::RunRequest request;
   CLI::App* run = app.add_subcommand("run", "Run a scene and write its results into a folder");
-  add_scene(*run, request.scene, request.overrides);
-  run->add_option("--out", request.out, "Result folder; without it out/<scene> in the working directory")
-      ->type_name("DIR");
-  run->add_option("--until", request.until, "End at this time (t.u.) in place of time.t_end")->type_name("T");
-  run->add_flag("--force", request.force, "Write into a folder that already holds results");
+  const auto [scene, set] = add_scene(*run, request.scene, request.overrides);
+  scene->required(false);
+  CLI::Option* const out =
+      run->add_option("--out", request.out, "Result folder; without it out/<scene> in the working directory")
+          ->type_name("DIR");
+  CLI::Option* const until =
+      run->add_option("--until", request.until, "End at this time (t.u.) in place of time.t_end")
+          ->type_name("T");
+  CLI::Option* const force =
+      run->add_flag("--force", request.force, "Write into a folder that already holds results");
+  CLI::Option* const resume =
+      run->add_option("--resume", request.resume, "Go on with the run that was stopped in this result folder")
+          ->type_name("DIR");
+  for (CLI::Option* own : {scene, set, out, until, force}) resume->excludes(own);
   run->add_flag("--quiet", request.quiet, "No progress and no result on the terminal");
 
   CLI::App* check =

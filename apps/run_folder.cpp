@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -36,6 +38,7 @@ bool is_frame(const fs::path& path) {
 
 void remove_results(const fs::path& folder) {
   for (const char* name : file_names) fs::remove(folder / name);
+  fs::remove_all(folder / checkpoints_name);
   const fs::path frames = folder / "frames";
   if (!fs::is_directory(frames)) return;
   for (const auto& entry : fs::directory_iterator(frames)) {
@@ -69,29 +72,61 @@ std::string element_areas_header(const FrameShape& shape) {
 }  // namespace
 
 struct RunFolder::Impl {
-  Impl(fs::path path, const solver::Scene& scene, bool quiet)
+  // mark: null for a new folder.
+  Impl(fs::path path, const solver::Scene& scene, const nlohmann::json& mark, bool quiet)
       : folder(std::move(path)),
         shape(frame_shape(scene)),
-        probes(folder / "probes.csv", probes_header(scene.output)),
-        tips(folder / "tips.csv", "t,x,y,charge,trajectory\n"),
-        trajectories(folder / "trajectories.csv",
-                     "trajectory,charge,birth_tu,death_tu,born,ended,core_x,core_y,core_radius,drift_speed,"
-                     "drift_direction,boundary_tu\n"),
-        sources(folder / "sources.csv", "t,sources\n"),
-        beats(folder / "beats.csv", "probe,upstroke_tu,period_tu,apd_tu,apd90_tu,di_tu\n"),
-        area(folder / "area.csv", "t,area,area_min,area_max\n"),
+        probes(text_file("probes.csv", probes_header(scene.output), mark)),
+        tips(text_file("tips.csv", "t,x,y,charge,trajectory\n", mark)),
+        trajectories(
+            text_file("trajectories.csv",
+                      "trajectory,charge,birth_tu,death_tu,born,ended,core_x,core_y,core_radius,drift_speed,"
+                      "drift_direction,boundary_tu\n",
+                      mark)),
+        sources(text_file("sources.csv", "t,sources\n", mark)),
+        beats(text_file("beats.csv", "probe,upstroke_tu,period_tu,apd_tu,apd90_tu,di_tu\n", mark)),
+        area(text_file("area.csv", "t,area,area_min,area_max\n", mark)),
         progress(scene.time.ms_per_tu, quiet) {
-    if (scene.output.fields) {
-      fields.emplace(folder / "fields.h5", shape, scene.time.ms_per_tu);
-      xdmf.emplace(folder / "fields.xdmf", shape, "fields.h5");
-    }
-    if (has_element_areas(scene)) {
-      element_areas.emplace(folder / "element_areas.csv", element_areas_header(shape));
-    }
+    if (scene.output.fields) open_fields(scene, mark);
+    if (has_element_areas(scene))
+      element_areas.emplace(text_file("element_areas.csv", element_areas_header(shape), mark));
     if (scene.output.frames) {
       fs::create_directories(folder / "frames");
       picture.emplace(scene);
+      if (!mark.is_null()) pictures = mark.at("frames");
     }
+  }
+
+  AppendedFile text_file(const char* name, const std::string& header, const nlohmann::json& mark) const {
+    if (mark.is_null()) return {folder / name, header};
+    return {folder / name, mark.at("bytes").at(name).get<std::uintmax_t>()};
+  }
+
+  void open_fields(const solver::Scene& scene, const nlohmann::json& mark) {
+    const fs::path path = folder / "fields.h5", description = folder / "fields.xdmf";
+    const double ms_per_tu = scene.time.ms_per_tu;
+    // The first, those that are due, the last.
+    const auto expected = static_cast<std::size_t>(std::min(1e9, scene.time.t_end / scene.output.every)) + 2;
+    if (mark.is_null()) {
+      fields.emplace(path, shape, ms_per_tu, expected);
+      xdmf.emplace(description, shape, "fields.h5");
+    } else {
+      fields.emplace(path, shape, ms_per_tu, expected, mark.at("fields").get<std::size_t>());
+      xdmf.emplace(description, shape, "fields.h5", mark.at("bytes").at("fields.xdmf").get<std::uintmax_t>());
+    }
+  }
+
+  // On the disk, all of it.
+  nlohmann::json mark() {
+    nlohmann::json bytes;
+    for (AppendedFile* file : {&probes, &tips, &trajectories, &sources, &beats, &area})
+      bytes[file->path().filename().string()] = file->sync();
+    if (element_areas) bytes["element_areas.csv"] = element_areas->sync();
+    if (fields) {
+      fields->sync();
+      bytes["fields.xdmf"] = xdmf->sync();
+    }
+    return {{"bytes", bytes}, {"fields", fields ? fields->frames() : 0}, {"frames", pictures}};
   }
 
   fs::path folder;
@@ -128,7 +163,18 @@ RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, bool force, bo
     remove_results(folder);
   });
   try {
-    impl_ = std::make_unique<Impl>(std::move(folder), scene, quiet);
+    impl_ = std::make_unique<Impl>(std::move(folder), scene, nullptr, quiet);
+  } catch (const std::runtime_error& error) {
+    throw solver::InputError(error.what());
+  }
+}
+
+RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, const std::string& mark, bool quiet) {
+  try {
+    impl_ = std::make_unique<Impl>(std::move(folder), scene, nlohmann::json::parse(mark), quiet);
+  } catch (const nlohmann::json::exception& error) {
+    throw solver::InputError(
+        fmt::format("the checkpoint's mark of the outputs cannot be read: {}", error.what()));
   } catch (const std::runtime_error& error) {
     throw solver::InputError(error.what());
   }
@@ -209,6 +255,8 @@ void RunFolder::warning(const std::string& text) {
   impl_->progress.end();
   fmt::print(stderr, "myowave: warning: {}\n", text);
 }
+
+std::string RunFolder::mark() { return impl_->mark().dump(); }
 
 bool RunFolder::wants_fields() const { return impl_->fields || impl_->picture; }
 

@@ -12,6 +12,9 @@
 namespace myowave::apps {
 
 // Errors of all writes: std::runtime_error that names the file and the reason.
+// The folder of a run's checkpoints in its result folder (solver/checkpoint.hpp).
+inline constexpr const char* checkpoints_name = "checkpoints";
+
 class RunFolder final : public solver::OutputSink {
  public:
   // Errors: InputError where the folder holds something and `force` is false.
@@ -20,6 +23,9 @@ class RunFolder final : public solver::OutputSink {
   // Creates the folder; `force` replaces the results in one that is there and leaves all else in it.
   // Errors: InputError where it holds something and `force` is false, or cannot be written.
   RunFolder(std::filesystem::path folder, const solver::Scene&, bool force, bool quiet);
+  // Goes on in a folder from a mark: what came after it is cut off.
+  // Errors: InputError where a file that the mark speaks of is not there or shorter, or the mark is none.
+  RunFolder(std::filesystem::path folder, const solver::Scene&, const std::string& mark, bool quiet);
   ~RunFolder() override;
 
   void write_manifest(const nlohmann::json& effective_configuration);
@@ -37,6 +43,7 @@ class RunFolder final : public solver::OutputSink {
   void progress(const solver::Progress&) override;
   void warning(const std::string&) override;
   bool wants_fields() const override;
+  std::string mark() override;
 
  private:
   struct Impl;

@@ -36,49 +36,12 @@ double number(std::string_view cell) {
   return value;
 }
 
-Hdf5Handle open_fields(const fs::path& file) {
-  start_hdf5();
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, file.string());
-  // Reading needs no lock, and a run that still writes the file may hold one.
-  check_hdf5(H5Pset_file_locking(access, false, true), file.string());
-  return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, file.string()};
-}
-
 double attribute(hid_t file, const char* name, double otherwise) {
   if (H5Aexists(file, name) <= 0) return otherwise;
   const Hdf5Handle id(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, name);
   double value = otherwise;
   check_hdf5(H5Aread(id, H5T_NATIVE_DOUBLE, &value), name);
   return value;
-}
-
-struct Dataset {
-  Hdf5Handle id;
-  std::vector<hsize_t> size;
-};
-
-Dataset open_dataset(hid_t file, const char* name) {
-  Dataset dataset{{H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, name}, {}};
-  const Hdf5Handle space(H5Dget_space(dataset.id), H5Sclose, name);
-  dataset.size.resize(std::size_t(H5Sget_simple_extent_ndims(space)));
-  H5Sget_simple_extent_dims(space, dataset.size.data(), nullptr);
-  return dataset;
-}
-
-// Frame n of a dataset whose first index is the frame; of one without others, the number.
-std::vector<double> read_frame(const Dataset& dataset, std::size_t n) {
-  std::vector<hsize_t> start(dataset.size.size(), 0), count = dataset.size;
-  start[0] = n;
-  count[0] = 1;
-  std::size_t values = 1;
-  for (const hsize_t extent : count) values *= extent;
-  const Hdf5Handle source(H5Dget_space(dataset.id), H5Sclose, "frame");
-  check_hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-             "frame");
-  const Hdf5Handle target(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose, "frame");
-  std::vector<double> frame(values);
-  check_hdf5(H5Dread(dataset.id, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, frame.data()), "frame");
-  return frame;
 }
 
 }  // namespace
@@ -136,8 +99,8 @@ RunResults::RunResults(fs::path folder, Unfinished unfinished) : folder_(std::mo
 std::vector<double> RunResults::frame_times() const {
   const fs::path path = folder_ / "fields.h5";
   if (!fs::exists(path)) return {};
-  const Hdf5Handle file = open_fields(path);
-  const Dataset time = open_dataset(file, "time");
+  const Hdf5Handle file = open_hdf5(path);
+  const StoredDataset time = open_dataset(file, "time");
   std::vector<double> times(time.size[0]);
   if (!times.empty())
     check_hdf5(H5Dread(time.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()),
@@ -148,8 +111,8 @@ std::vector<double> RunResults::frame_times() const {
 StoredFrame RunResults::frame(std::size_t n) const {
   const fs::path path = folder_ / "fields.h5";
   if (!fs::exists(path)) throw InputError(fmt::format("{}: no such file", path.string()));
-  const Hdf5Handle file = open_fields(path);
-  const Dataset time = open_dataset(file, "time"), V = open_dataset(file, "V");
+  const Hdf5Handle file = open_hdf5(path);
+  const StoredDataset time = open_dataset(file, "time"), V = open_dataset(file, "V");
   if (n >= time.size[0])
     throw InputError(fmt::format("{}: there is no frame {}, only {}", path.string(), n, time.size[0]));
   StoredFrame frame;

@@ -903,7 +903,9 @@ void require_few_dots(std::string_view text, Problems& problems) {
   }
 }
 
-std::string file_text(const std::filesystem::path& file) {
+}  // namespace
+
+std::string scene_text(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status))
@@ -925,8 +927,6 @@ std::string file_text(const std::filesystem::path& file) {
   return text;
 }
 
-}  // namespace
-
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const std::vector<std::string>& overrides) {
   Problems problems(file.string());
@@ -945,7 +945,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_scene(file_text(file), file, overrides);
+  return parse_scene(scene_text(file), file, overrides);
 }
 
 }  // namespace myowave::apps

@@ -331,7 +331,11 @@ std::vector<Section> make_schema() {
         {"probes", "", Probes{}, "Nodes whose V, r and Ta go to probes.csv, and whose beats to beats.csv.",
          "the four nodes a quarter of a side from the corners"},
         {"period_from", "t.u.", number(MYOWAVE_AT(scene.output.period_from), not_negative),
-         "The means of the beats count from the upstrokes at or after this time."}}},
+         "The means of the beats count from the upstrokes at or after this time."},
+        {"checkpoint_every", "t.u.", number(MYOWAVE_AT(scene.output.checkpoint_every), not_negative),
+         "Time between checkpoints, from which `myowave run --resume` goes on; 0: only one where the run is "
+         "asked "
+         "to stop."}}},
   };
 }
 

@@ -30,12 +30,8 @@ struct Window {
 
 Hdf5Handle open_file(const std::string& file) {
   if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: no such file", file));
-  start_hdf5();
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, file);
-  // Reading needs no lock, and a run that still writes the file may hold one.
-  check_hdf5(H5Pset_file_locking(access, false, true), file);
   try {
-    return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, file};
+    return open_hdf5(file);
   } catch (const Hdf5Error& error) {
     throw InputError(
         fmt::format("{} (a state is an HDF5 file with V, r and, where there, Ta)", error.what()));

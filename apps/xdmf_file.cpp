@@ -21,11 +21,18 @@ constexpr std::string_view tail =
 }  // namespace
 
 // A flat sheet of a regular grid is one layer of a 3-D one: viewers turn a 2-D one into the X2-X3 plane.
-XdmfFile::XdmfFile(const std::filesystem::path& path, const FrameShape& shape, std::string fields_name)
+XdmfFile::XdmfFile(const FrameShape& shape, std::string fields_name, AppendedFile file)
     : shape_(shape),
       fields_name_(std::move(fields_name)),
       grid_size_(fmt::format("{}{} {}", shape.deforms() ? "" : "1 ", shape.rows, shape.columns)),
-      file_(path, fmt::format("{}{}", head, tail)) {}
+      file_(std::move(file)) {}
+
+XdmfFile::XdmfFile(const std::filesystem::path& path, const FrameShape& shape, std::string fields_name)
+    : XdmfFile(shape, std::move(fields_name), AppendedFile(path, fmt::format("{}{}", head, tail))) {}
+
+XdmfFile::XdmfFile(const std::filesystem::path& path, const FrameShape& shape, std::string fields_name,
+                   std::uintmax_t size)
+    : XdmfFile(shape, std::move(fields_name), AppendedFile(path, size)) {}
 
 // One frame of a dataset. The dataset grows; its size is given as it is with this frame.
 std::string XdmfFile::slab(std::string_view dataset, int precision, bool vector, std::size_t frame) const {

@@ -18,10 +18,16 @@ class XdmfFile {
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
   XdmfFile(const std::filesystem::path&, const FrameShape&, std::string fields_name);
 
+  // Goes on with one that is there, see AppendedFile.
+  XdmfFile(const std::filesystem::path&, const FrameShape&, std::string fields_name, std::uintmax_t size);
+
+  std::uintmax_t sync() { return file_.sync(); }
+
   // The file is complete after each frame.
   void append(std::size_t frame, double t);
 
  private:
+  XdmfFile(const FrameShape&, std::string fields_name, AppendedFile);
   std::string slab(std::string_view dataset, int precision, bool vector, std::size_t frame) const;
 
   FrameShape shape_;

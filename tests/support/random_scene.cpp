@@ -239,6 +239,7 @@ class RandomScene {
     maybe("output", "from", 0, 0, 1.1 * steps_ * dt_, 0.2);
     for (const char* key : {"element_areas", "maps"})
       if (draw_.chance(0.2)) flag("output", key, 0.7);
+    maybe("output", "checkpoint_every", 0, 0, 1.1 * steps_ * dt_, 0.2);
   }
 
   Draw draw_;
