@@ -193,7 +193,7 @@ void resume(const std::filesystem::path& out, bool quiet) {
 void run(const RunRequest& request) {
   watch_signals();
   if (request.resume) return resume(*request.resume, request.quiet);
-  if (request.scene.empty()) throw solver::InputError("name a scene to run, or a folder with --resume");
+  if (request.scene.empty()) throw solver::InputError("SCENE is required, or --resume with the folder of a stopped run");
   const SceneSource source = read_source(request.scene, with_end(request.overrides, request.until));
   const solver::Scene scene = load(source);
   const std::filesystem::path out =

@@ -30,7 +30,7 @@ solver::Scene scene_of(int rows, int columns, bool deforms) {
 
 void write_frames(const TemporaryFolder& folder, const solver::Scene& scene, int count) {
   const auto shape = frame_shape(scene);
-  FieldsFile fields(folder / "fields.h5", shape, 10);
+  FieldsFile fields(folder / "fields.h5", shape, 10, 10);
   XdmfFile xdmf(folder / "fields.xdmf", shape, "fields.h5");
   SyntheticFrames frames(scene);
   for (int n = 0; n < count; ++n) {
@@ -135,7 +135,7 @@ TEST(FieldsFile, IsReadableAfterAKill) {
   const auto child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    FieldsFile fields(folder / "fields.h5", frame_shape(scene), 10);
+    FieldsFile fields(folder / "fields.h5", frame_shape(scene), 10, 10);
     SyntheticFrames frames(scene);
     for (int n = 0; n < 7; ++n) fields.append(frames.at(n));
     raise(SIGKILL);
@@ -161,7 +161,7 @@ TEST(FieldsFile, AFailedWriteNamesTheFileAndTheReason) {
     setrlimit(RLIMIT_FSIZE, &limit);
     int result = 1;
     try {
-      FieldsFile fields(folder / "fields.h5", frame_shape(scene), 10);
+      FieldsFile fields(folder / "fields.h5", frame_shape(scene), 10, 10);
       SyntheticFrames frames(scene);
       for (int n = 0; n < 1000; ++n) fields.append(frames.at(n));
     } catch (const std::runtime_error& error) {

@@ -54,7 +54,7 @@ TEST(ReadState, TakesTheLastFrameOfARun) {
   scene.grid.rows = 11;
   scene.grid.columns = 21;
   test::SyntheticFrames frames(scene);
-  FieldsFile file(folder / "fields.h5", frame_shape(scene), 10);
+  FieldsFile file(folder / "fields.h5", frame_shape(scene), 10, 10);
   for (const double t : {0.0, 1.0, 2.0}) file.append(frames.at(t));
   // The writer is still at work.
   const auto state = read_state(folder / "fields.h5", 11, 21, std::nullopt);
