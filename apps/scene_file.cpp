@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -15,6 +12,7 @@
 #include <tuple>
 
 #include "apps/initial_state.hpp"
+#include "apps/scene_tables.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
 #include "solver/rest_state.hpp"
@@ -24,68 +22,6 @@ namespace {
 
 using solver::InputError;
 using solver::Scene;
-
-constexpr std::string_view override_mark = "--set ";
-
-bool is_override(const toml::source_region& where) {
-  return where.path && where.path->starts_with(override_mark);
-}
-
-// Collects everything that is wrong, in the order of the file and then of the command line.
-class Problems {
- public:
-  explicit Problems(std::string file) : file_(std::move(file)) {}
-
-  void add(const toml::source_region& where, const std::string& message) {
-    if (is_override(where)) {
-      lines_.emplace(true, 0, 0, fmt::format("{}: {}", *where.path, message));
-    } else if (where.begin) {
-      lines_.emplace(false, where.begin.line, where.begin.column,
-                     fmt::format("{}:{}:{}: {}", file_, where.begin.line, where.begin.column, message));
-    } else {
-      lines_.emplace(false, 0, 0, fmt::format("{}: {}", file_, message));
-    }
-  }
-
-  void add_override(std::string_view key, const std::string& message) {
-    lines_.emplace(true, 0, 0, fmt::format("{}{}: {}", override_mark, key, message));
-  }
-
-  void throw_if_any() const {
-    if (lines_.empty()) return;
-    std::string text;
-    for (const auto& line : lines_) text += (text.empty() ? "" : "\n") + std::get<3>(line);
-    throw InputError(text);
-  }
-
- private:
-  std::string file_;
-  std::set<std::tuple<bool, unsigned, unsigned, std::string>> lines_;
-};
-
-std::string hint(std::string_view meant) {
-  return meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
-}
-
-std::string printable(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string result;
-  for (const char letter : text.substr(0, longest)) {
-    result += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? '?' : letter;
-  }
-  return result + (text.size() > longest ? "..." : "");
-}
-
-// A value as a message shows it.
-std::string shown(const toml::node& node) {
-  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", printable(text->get()));
-  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* array = node.as_array()) return fmt::format("an array of {}", array->size());
-  if (node.is_table()) return "a table";
-  return "a date or time";
-}
 
 // What a value of this kind has to be, in words.
 std::string requirement(const Key& key) {
@@ -765,18 +701,6 @@ bool is_index(const std::string& text) {
   return !text.empty() && text.size() < 9 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-std::string toml_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char letter : text) {
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == '"' || letter == '\\' || letter == 0x7f) {
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
-    } else {
-      result += letter;
-    }
-  }
-  return result + '"';
-}
-
 // The table that holds nothing but this value, its nodes marked as from this override.
 toml::table override_table(const std::string& key, const std::string& value) {
   const std::string source = std::string(override_mark) + key;
@@ -873,79 +797,24 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
   }
 }
 
-// The parser builds and takes down nested tables recursively, and dotted keys nest without a limit of
-// its own. Dots of numbers apart, a scene has few.
-void require_few_dots(std::string_view text, Problems& problems) {
-  constexpr int most_dots = 2000;
-  const auto is_digit = [&](std::size_t at) {
-    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
-  };
-  int dots = 0;
-  bool number_has_dot = false;
-  toml::source_index line = 1, column = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    ++column;
-    if (text[i] == '\n') {
-      ++line;
-      column = 0;
-    }
-    if (text[i] != '.') {
-      number_has_dot = number_has_dot && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
-      continue;
-    }
-    if (!number_has_dot && i > 0 && is_digit(i - 1) && is_digit(i + 1)) {
-      number_has_dot = true;
-    } else if (++dots > most_dots) {
-      problems.add({{line, column}, {line, column}, nullptr},
-                   fmt::format("more than {} dots outside of numbers: this is no scene", most_dots));
-      problems.throw_if_any();
-    }
-  }
-}
-
 }  // namespace
 
-std::string scene_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    throw InputError(fmt::format("{}: there is no such file", file.string()));
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(fmt::format("{}: is a folder; name a scene file in it", file.string()));
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  // Far beyond any scene; a wrong file is told before it is read whole.
-  constexpr std::streamsize most_bytes = 1 << 20;
-  std::string text(most_bytes + 1, '\0');
-  stream.read(text.data(), most_bytes + 1);
-  if (stream.bad()) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  if (stream.gcount() > most_bytes) {
-    throw InputError(fmt::format("{}: is larger than 1 MiB and no scene file", file.string()));
-  }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
+Scene read_tables(toml::table root, const std::filesystem::path& file,
+                  const std::vector<std::string>& overrides, Problems& problems) {
+  for (const std::string& one : overrides) apply_override(root, one, problems);
+  return SceneReader(root, file, problems).read();
 }
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const std::vector<std::string>& overrides) {
   Problems problems(file.string());
-  require_few_dots(text, problems);
-  toml::table root;
-  try {
-    root = toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    problems.add(error.source(), std::string(error.description()));
-    problems.throw_if_any();
-  }
-  for (const std::string& one : overrides) apply_override(root, one, problems);
-  Scene scene = SceneReader(root, file, problems).read();
+  Scene scene = read_tables(parse_toml(text, file, problems), file, overrides, problems);
   problems.throw_if_any();
   return scene;
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_scene(scene_text(file), file, overrides);
+  return parse_scene(toml_text(file, "scene"), file, overrides);
 }
 
 }  // namespace myowave::apps

@@ -15,9 +15,6 @@ namespace myowave::apps {
 // "--set section.key: message".
 solver::Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-// The text of a scene file. Errors: InputError.
-std::string scene_text(const std::filesystem::path& file);
-
 // The same for text that is at hand; `file` gives the name in messages, the scene's name and the
 // folder that relative paths start from.
 solver::Scene parse_scene(std::string_view text, const std::filesystem::path& file,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/scene_file.hpp"
+#include "apps/toml_input.hpp"
 #include "solver/error.hpp"
 
 namespace myowave::apps {
@@ -26,7 +27,7 @@ std::string SceneSource::json() const {
 }
 
 SceneSource read_source(const std::string& file, std::vector<std::string> overrides) {
-  return {file, scene_text(file), std::move(overrides)};
+  return {file, toml_text(file, "scene"), std::move(overrides)};
 }
 
 SceneSource source_from(const std::string& json) {

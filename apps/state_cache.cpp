@@ -80,6 +80,8 @@ std::vector<double> read_dataset(hid_t file, const char* name, std::array<hsize_
   return values;
 }
 
+}  // namespace
+
 std::optional<solver::InitialState> find_state(const std::filesystem::path& path,
                                                const std::string& definition) {
   if (!std::filesystem::exists(path)) return std::nullopt;
@@ -101,7 +103,20 @@ std::optional<solver::InitialState> find_state(const std::filesystem::path& path
   }
 }
 
-}  // namespace
+void keep_state(const std::filesystem::path& path, const std::string& definition,
+                const solver::InitialState& state) {
+  std::filesystem::path temporary = path;
+  temporary += fmt::format(".{}.tmp", getpid());
+  try {
+    std::filesystem::create_directories(path.parent_path());
+    write_state(temporary, definition, state);
+    std::filesystem::rename(temporary, path);
+  } catch (const std::runtime_error& error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), error.what()));
+  }
+}
 
 std::filesystem::path cached_state_path(const std::string& name, const std::string& definition) {
   const auto folder = cache_folder();
@@ -116,15 +131,9 @@ solver::InitialState cached_state(const std::filesystem::path& path, const std::
   if (auto found = find_state(path, definition)) return *std::move(found);
 
   solver::InitialState state = compute();
-  std::filesystem::path temporary = path;
-  temporary += fmt::format(".{}.tmp", getpid());
   try {
-    std::filesystem::create_directories(path.parent_path());
-    write_state(temporary, definition, state);
-    std::filesystem::rename(temporary, path);
+    keep_state(path, definition, state);
   } catch (const std::runtime_error& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
     fmt::print(stderr, "myowave: the state could not be kept in the cache ({}); it will be computed again\n",
                error.what());
   }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "solver/run.hpp"
@@ -12,6 +13,15 @@ namespace myowave::apps {
 
 // <cache>/myowave/<name>_<hash of the definition>.h5; empty where the user has no home.
 std::filesystem::path cached_state_path(const std::string& name, const std::string& definition);
+
+// The state in `path`; empty where there is none, or one that is damaged or of another definition.
+std::optional<solver::InitialState> find_state(const std::filesystem::path& path,
+                                               const std::string& definition);
+
+// Writes beside the file and renames; makes the folder. Errors: std::runtime_error "cannot write FILE:
+// reason".
+void keep_state(const std::filesystem::path& path, const std::string& definition,
+                const solver::InitialState& state);
 
 // The state in `path`, else the computed one, which is then kept there. A file that is damaged or
 // of another definition is computed anew. That nothing can be kept is told on stderr and is no error.
