@@ -17,6 +17,7 @@
 #include <thread>
 #include <type_traits>
 
+#include "apps/device.hpp"
 #include "apps/estimate.hpp"
 #include "apps/initial_state.hpp"
 #include "apps/memory.hpp"
@@ -35,25 +36,6 @@
 
 namespace myowave::apps {
 namespace {
-
-// Kokkos for one command. Its advice on thread binding is for those who launch it themselves.
-class Device {
- public:
-  Device() {
-    if (!Kokkos::is_initialized()) {
-      Kokkos::initialize(Kokkos::InitializationSettings().set_disable_warnings(true));
-      owned_ = true;
-    }
-  }
-  ~Device() {
-    if (owned_) Kokkos::finalize();
-  }
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-
- private:
-  bool owned_ = false;
-};
 
 std::vector<std::string> with_end(std::vector<std::string> overrides, const std::optional<double>& until) {
   if (until && !(std::isfinite(*until) && *until >= 0)) {
@@ -193,7 +175,8 @@ void resume(const std::filesystem::path& out, bool quiet) {
 void run(const RunRequest& request) {
   watch_signals();
   if (request.resume) return resume(*request.resume, request.quiet);
-  if (request.scene.empty()) throw solver::InputError("SCENE is required, or --resume with the folder of a stopped run");
+  if (request.scene.empty())
+    throw solver::InputError("SCENE is required, or --resume with the folder of a stopped run");
   const SceneSource source = read_source(request.scene, with_end(request.overrides, request.until));
   const solver::Scene scene = load(source);
   const std::filesystem::path out =

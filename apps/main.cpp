@@ -15,6 +15,7 @@
 #include "apps/commands.hpp"
 #include "apps/report.hpp"
 #include "apps/schema.hpp"
+#include "apps/sweep.hpp"
 #include "myowave_version.hpp"
 #include "solver/error.hpp"
 
@@ -40,6 +41,63 @@ SceneOptions add_scene(CLI::App& command, std::string& scene, std::vector<std::s
           ->allow_extra_args(false);
   return {file, set};
 }
+
+// `myowave sweep` and its own subcommands.
+struct SweepCommand {
+  apps::SweepRequest request;
+  apps::SlurmOptions slurm;
+  std::string folder;
+  bool csv = false, json = false;
+  CLI::App *command = nullptr, *status = nullptr, *table = nullptr;
+  CLI::Option* with_slurm = nullptr;
+
+  explicit SweepCommand(CLI::App& app) {
+    command = app.add_subcommand("sweep", "Do many runs of a scene, and go on where they were stopped");
+    command->add_option("SWEEP", request.file, "Sweep file (TOML), see apps/README.md");
+    command
+        ->add_option("--out", request.out,
+                     "The sweep's folder; without it out/<sweep> in the working directory")
+        ->type_name("DIR");
+    command->add_option("--shard", request.shard, "Only part I of N, from 1")->type_name("I/N");
+    command->add_option("--jobs", request.jobs, "Runs at once; without it one a core")->type_name("J");
+    command->add_flag("--dry-run", request.dry_run,
+                      "Say what would be done and how long it takes; write nothing");
+    command->add_flag("--retry-failed", request.retry_failed, "Do the runs again that failed");
+    command->add_flag("--redo-other-revisions", request.redo_other_revisions,
+                      "Do the runs again that another revision of myowave did");
+    command->add_flag("--quiet", request.quiet, "No progress on the terminal");
+    with_slurm =
+        command->add_flag("--slurm", "Write the script of a Slurm job array into the folder; run nothing");
+    const auto for_slurm = [&](const char* name, auto& value, const char* words) {
+      command->add_option(name, value, words)->needs(with_slurm)->capture_default_str();
+    };
+    for_slurm("--tasks", slurm.tasks, "Tasks of the array, a shard each");
+    for_slurm("--time", slurm.time, "Time limit of a task");
+    for_slurm("--cpus", slurm.cpus, "Cores of a task");
+    for_slurm("--gpus", slurm.gpus, "GPUs of a task");
+    status = command->add_subcommand("status", "Say how far a sweep is");
+    status->add_option("DIR", folder, "Folder of a sweep")->required();
+    table = command->add_subcommand("table", "Print a row a run, from the records of all shards");
+    table->add_option("DIR", folder, "Folder of a sweep")->required();
+    auto* as_csv = table->add_flag("--csv", csv, "As CSV");
+    table->add_flag("--json", json, "As JSON")->excludes(as_csv);
+    command->require_subcommand(0, 1);
+  }
+
+  void run() {
+    if (status->parsed()) return apps::sweep_status(folder);
+    if (table->parsed())
+      return apps::sweep_table(folder, csv    ? apps::TableFormat::csv
+                                       : json ? apps::TableFormat::json
+                                              : apps::TableFormat::text);
+    if (request.file.empty())
+      throw solver::InputError(
+          "myowave: SWEEP is required: a sweep file, or status or table with a sweep's folder\nRun `myowave "
+          "sweep --help` for what can be asked.");
+    if (with_slurm->count() > 0) request.slurm = slurm;
+    apps::sweep(request);
+  }
+};
 
 int guarded(const std::function<void()>& command) {
   try {
@@ -130,12 +188,14 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   report->add_flag("--movie", page.movie, "Also movie.mp4 of each run, by ffmpeg where it is installed");
 
+  SweepCommand sweep(app);
+
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
   // CLI11 would only say that a subcommand is missing.
   const std::vector<std::string_view> names{"run",       "check",  "describe", "stability",
-                                            "reproduce", "report", "info"};
+                                            "reproduce", "report", "sweep",    "info"};
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
     const std::string meant = apps::did_you_mean(argv[1], names);
     fmt::print(stderr,
@@ -162,6 +222,7 @@ int main(int argc, char** argv) {
     if (stability->parsed()) apps::stability(maps);
     if (reproduce->parsed()) apps::reproduce(figures);
     if (report->parsed()) apps::report(page);
+    if (sweep.command->parsed()) sweep.run();
     if (info->parsed()) apps::info();
   });
 }

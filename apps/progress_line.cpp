@@ -13,18 +13,18 @@ namespace {
 
 double fraction(const solver::Progress& p) { return p.t_end > 0 ? std::clamp(p.t / p.t_end, 0.0, 1.0) : 1.0; }
 
-std::string clock_text(double seconds) {
-  const auto s = static_cast<long long>(std::ceil(seconds));
-  if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
-  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
-}
-
 std::size_t terminal_width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 }  // namespace
+
+std::string clock_text(double seconds) {
+  const auto s = static_cast<long long>(std::ceil(seconds));
+  if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
+  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
 
 std::string progress_text(const solver::Progress& p, double seconds, double ms_per_tu) {
   const double done = fraction(p);

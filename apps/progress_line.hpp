@@ -8,6 +8,9 @@
 
 namespace myowave::apps {
 
+// "1:05", "2:00:00".
+std::string clock_text(double seconds);
+
 // " 42 %  t 168/400 t.u. (1680 ms)  ETA 0:12  312 Mcell-steps/s  Newton 1234  tips 1"
 // `seconds`: spent in this stage. Newton iterations are left out where there are none.
 std::string progress_text(const solver::Progress&, double seconds, double ms_per_tu);

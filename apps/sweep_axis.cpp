@@ -18,7 +18,7 @@ namespace {
 // Of computed values: 0.0975 + 0.0025 is then 0.1, and no two systems differ in the last bits of a power.
 double rounded(double value) { return std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr); }
 
-nlohmann::json json_of(const toml::node& node) {
+nlohmann::ordered_json json_of(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* integer = node.as_integer()) return integer->get();
   if (const auto* number = node.as_floating_point()) return number->get();
@@ -248,7 +248,7 @@ class AxisReader {
                          (std::holds_alternative<Integer>(varied_.key->kind) ||
                           std::holds_alternative<Size>(varied_.key->kind)) &&
                          value == std::round(value) && std::abs(value) < 1e15;
-    nlohmann::json shown = value;
+    nlohmann::ordered_json shown = value;
     if (integer) shown = std::int64_t(value);
     axis_.values.push_back({shown.dump(), shown, table_.get("min")->source()});
   }

@@ -13,9 +13,9 @@ namespace myowave::apps {
 
 // A value on an axis.
 struct AxisValue {
-  std::string toml;           // what the scene gets
-  nlohmann::json shown;       // what tables and plots show: the value, or its name
-  toml::source_region place;  // in the sweep file
+  std::string toml;              // what the scene gets
+  nlohmann::ordered_json shown;  // what tables and plots show: the value, or its name
+  toml::source_region place;     // in the sweep file
 };
 
 struct SweepAxis {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Kokkos_Core.hpp>
+
+namespace myowave::apps {
+
+// Kokkos for one command. Its advice on thread binding is for those who launch it themselves.
+class Device {
+ public:
+  Device() {
+    if (!Kokkos::is_initialized()) {
+      Kokkos::initialize(Kokkos::InitializationSettings().set_disable_warnings(true));
+      owned_ = true;
+    }
+  }
+  ~Device() {
+    if (owned_) Kokkos::finalize();
+  }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+ private:
+  bool owned_ = false;
+};
+
+}  // namespace myowave::apps
