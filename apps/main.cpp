@@ -47,7 +47,7 @@ struct SweepCommand {
   apps::SweepRequest request;
   apps::SlurmOptions slurm;
   std::string folder;
-  bool csv = false, json = false;
+  bool csv = false, json = false, write_script = false;
   CLI::App *command = nullptr, *status = nullptr, *table = nullptr;
   CLI::Option* with_slurm = nullptr;
 
@@ -66,8 +66,8 @@ struct SweepCommand {
     command->add_flag("--redo-other-revisions", request.redo_other_revisions,
                       "Do the runs again that another revision of myowave did");
     command->add_flag("--quiet", request.quiet, "No progress on the terminal");
-    with_slurm =
-        command->add_flag("--slurm", "Write the script of a Slurm job array into the folder; run nothing");
+    with_slurm = command->add_flag("--slurm", write_script,
+                                   "Write the script of a Slurm job array into the folder; run nothing");
     const auto for_slurm = [&](const char* name, auto& value, const char* words) {
       command->add_option(name, value, words)->needs(with_slurm)->capture_default_str();
     };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace myowave::apps {
 namespace {
@@ -133,13 +134,16 @@ SweepTable read_table(const std::filesystem::path& path) {
 
 std::string table_csv(const SweepTable& table) {
   std::string text;
-  for (std::size_t n = 0; n < table.columns.size(); ++n)
-    text += (n == 0 ? "" : ",") + csv_cell(table.columns[n]);
-  text += '\n';
-  for (const auto& row : table.cells) {
-    for (std::size_t n = 0; n < row.size(); ++n) text += (n == 0 ? "" : ",") + csv_cell(row[n]);
+  const auto add_line = [&](const auto& cells) {
+    const char* comma = "";
+    for (const auto& cell : cells) {
+      text += std::exchange(comma, ",");
+      text += csv_cell(cell);
+    }
     text += '\n';
-  }
+  };
+  add_line(table.columns);
+  for (const auto& row : table.cells) add_line(row);
   return text;
 }
 
