@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
 
   apps::ReportRequest page;
   CLI::App* report = app.add_subcommand("report", "Make one page, report.html, that shows runs");
-  report->add_option("DIR", page.folders, "Result folders of runs, or of a reproduction")->required();
+  report->add_option("DIR", page.folders, "Folders of runs, of sweeps, or of a reproduction")->required();
   report->add_option("--out", page.out, "The page; without it report.html in the first folder")
       ->type_name("FILE");
   report->add_flag("--movie", page.movie, "Also movie.mp4 of each run, by ffmpeg where it is installed");
