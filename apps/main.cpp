@@ -47,7 +47,7 @@ struct SweepCommand {
   apps::SweepRequest request;
   apps::SlurmOptions slurm;
   std::string folder;
-  bool csv = false, json = false, write_script = false;
+  bool csv = false, json = false, wants_slurm = false;
   CLI::App *command = nullptr, *status = nullptr, *table = nullptr;
   CLI::Option* with_slurm = nullptr;
 
@@ -66,7 +66,7 @@ struct SweepCommand {
     command->add_flag("--redo-other-revisions", request.redo_other_revisions,
                       "Do the runs again that another revision of myowave did");
     command->add_flag("--quiet", request.quiet, "No progress on the terminal");
-    with_slurm = command->add_flag("--slurm", write_script,
+    with_slurm = command->add_flag("--slurm", wants_slurm,
                                    "Write the script of a Slurm job array into the folder; run nothing");
     const auto for_slurm = [&](const char* name, auto& value, const char* words) {
       command->add_option(name, value, words)->needs(with_slurm)->capture_default_str();
@@ -94,7 +94,7 @@ struct SweepCommand {
       throw solver::InputError(
           "myowave: SWEEP is required: a sweep file, or status or table with a sweep's folder\nRun `myowave "
           "sweep --help` for what can be asked.");
-    if (with_slurm->count() > 0) request.slurm = slurm;
+    if (wants_slurm) request.slurm = slurm;
     apps::sweep(request);
   }
 };
