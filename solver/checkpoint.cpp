@@ -43,6 +43,8 @@ fs::path file_of(const fs::path& folder, std::uint64_t serial) {
   return folder / (serial % 2 == 0 ? "checkpoint_even" : "checkpoint_odd");
 }
 
+fs::path temporary_of(const fs::path& file) { return file.string() + ".tmp"; }
+
 [[noreturn]] void refuse_write(const fs::path& path, int error) {
   throw std::runtime_error(
       fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
@@ -51,7 +53,7 @@ fs::path file_of(const fs::path& folder, std::uint64_t serial) {
 // A file that is there under its name only when it is whole and on the disk.
 class NewFile {
  public:
-  explicit NewFile(fs::path path) : path_(std::move(path)), temporary_(path_.string() + ".tmp") {
+  explicit NewFile(fs::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
     descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) refuse_write(temporary_, errno);
   }
@@ -113,6 +115,7 @@ std::vector<std::byte> content(const fs::path& path) {
 
 // What is wrong with it, or what it holds.
 std::variant<std::string, FoundCheckpoint> read_checkpoint(const fs::path& path) {
+  if (!fs::is_regular_file(path)) return std::string("it is no file");
   std::vector<std::byte> bytes = content(path);
   Header header;
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
@@ -177,7 +180,9 @@ std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder, std::vect
 }
 
 CheckpointKeeper::CheckpointKeeper(fs::path folder, std::string identity, const FoundCheckpoint* last)
-    : folder_(std::move(folder)), identity_(std::move(identity)), serial_(last ? last->serial + 1 : 0) {}
+    : folder_(std::move(folder)), identity_(std::move(identity)), serial_(last ? last->serial + 1 : 0) {
+  if (!last) remove_all();  // newer by their number than what is to come, they would be taken for it
+}
 
 void CheckpointKeeper::keep(const StateWriter& state, std::int64_t step, double t, const std::string& mark) {
   std::error_code error;
@@ -218,7 +223,11 @@ void CheckpointKeeper::keep(const StateWriter& state, std::int64_t step, double 
 
 void CheckpointKeeper::remove_all() const {
   std::error_code ignored;  // what is left costs space, nothing else
-  for (const std::uint64_t turn : {0, 1}) fs::remove(file_of(folder_, turn), ignored);
+  for (const std::uint64_t turn : {0, 1}) {
+    const fs::path file = file_of(folder_, turn);
+    fs::remove(file, ignored);
+    fs::remove(temporary_of(file), ignored);  // of a run that was killed while it wrote
+  }
   fs::remove(folder_, ignored);
 }
 

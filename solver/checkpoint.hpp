@@ -38,7 +38,7 @@ std::optional<FoundCheckpoint> find_checkpoint(const std::filesystem::path& fold
 class CheckpointKeeper {
  public:
   // identity: a text that tells which run it is; every checkpoint has it. `last`: the one that the run goes
-  // on from, which stays until two newer ones are there.
+  // on from, which stays until two newer ones are there. A run that begins anew removes those that are there.
   CheckpointKeeper(std::filesystem::path folder, std::string identity, const FoundCheckpoint* last = nullptr);
 
   // Returns when the file is safe on the disk.
