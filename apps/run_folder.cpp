@@ -36,7 +36,24 @@ bool is_frame(const fs::path& path) {
   return path.extension() == ".png" && path.filename().string().starts_with("frame_");
 }
 
+// Of a run that was killed while it wrote beside a file that it would have replaced.
+bool is_left_over(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.extension() == ".tmp" &&
+         (name.starts_with("frame_") ||
+          std::ranges::any_of(file_names, [&](const char* file) { return name.starts_with(file); }));
+}
+
+void remove_left_overs(const fs::path& folder) {
+  for (const auto& place : {folder, folder / "frames"}) {
+    std::error_code missing;
+    for (const auto& entry : fs::directory_iterator(place, missing))
+      if (is_left_over(entry.path())) fs::remove(entry.path());
+  }
+}
+
 void remove_results(const fs::path& folder) {
+  remove_left_overs(folder);
   for (const char* name : file_names) fs::remove(folder / name);
   fs::remove_all(folder / checkpoints_name);
   const fs::path frames = folder / "frames";
@@ -171,6 +188,7 @@ RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, bool force, bo
 
 RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, const std::string& mark, bool quiet) {
   try {
+    remove_left_overs(folder);
     impl_ = std::make_unique<Impl>(std::move(folder), scene, nlohmann::json::parse(mark), quiet);
   } catch (const nlohmann::json::exception& error) {
     throw solver::InputError(
