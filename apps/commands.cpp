@@ -166,8 +166,14 @@ void resume(const std::filesystem::path& out, bool quiet) {
   RunFolder folder(out, scene, found->mark, quiet);
   solver::CheckpointKeeper keeper(out / checkpoints_name, found->identity, &*found);
   if (!quiet) fmt::print(stderr, "myowave: goes on from {}, t = {:g} t.u.\n", found->file.string(), found->t);
-  const auto summary = run_into(folder, out, scene, {}, keeper, &*found);
-  if (!quiet) print_result(scene, summary, out);
+  try {
+    const auto summary = run_into(folder, out, scene, {}, keeper, &*found);
+    if (!quiet) print_result(scene, summary, out);
+  } catch (const solver::StateMismatch& error) {
+    throw solver::InputError(fmt::format(
+        "{}: {}; go on with the one whose git hash is in {}, or begin the run again, with --force",
+        found->file.string(), error.what(), (out / "manifest.json").string()));
+  }
 }
 
 }  // namespace

@@ -411,11 +411,14 @@ struct Saved {
   StateReader reader;
   std::size_t stage = 0;
 
-  explicit Saved(const FoundCheckpoint& checkpoint) : reader(checkpoint.state()) { reader(stage); }
+  Saved(const FoundCheckpoint& checkpoint, const Scene& scene) : reader(checkpoint.state()) {
+    reader(stage);
+    if (stage > scene.initial.preconditions.size()) throw StateMismatch();
+  }
 };
 
-std::optional<Saved> saved_of(const RunControl& control) {
-  return control.resume ? std::optional<Saved>(std::in_place, *control.resume) : std::nullopt;
+std::optional<Saved> saved_of(const RunControl& control, const Scene& scene) {
+  return control.resume ? std::optional<Saved>(std::in_place, *control.resume, scene) : std::nullopt;
 }
 
 // In place of an initial state that a saved one is put over.
@@ -476,7 +479,7 @@ InitialState run(const Scene& scene, InitialState state, OutputSink& sink, RunSu
 
 InitialState run_preconditions(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
                                const RunControl& control) {
-  auto saved = saved_of(control);
+  auto saved = saved_of(control, scene);
   if (saved) state = blank_state(scene);
   require_runnable(scene, state);
   const std::vector<Scene> stages = stages_of(scene);
@@ -496,7 +499,7 @@ InitialState run_preconditions(const Scene& scene, InitialState state, OutputSin
 InitialState run_preconditioned(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
                                 const RunControl& control) {
   const std::size_t stage = scene.initial.preconditions.size();
-  auto saved = saved_of(control);
+  auto saved = saved_of(control, scene);
   const bool goes_on = saved && saved->stage == stage;
   if (goes_on) state = blank_state(scene);
   require_runnable(scene, state);
