@@ -1,9 +1,11 @@
 #include "apps/fields_file.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -63,9 +65,12 @@ FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, doub
 }
 
 FieldsFile::FieldsFile(const std::filesystem::path& path, const FrameShape& shape, double ms_per_tu,
-                       std::size_t expected_frames, std::size_t frames)
+                       std::size_t expected_frames, const Kept& kept)
     : FieldsFile(path.string() + ".tmp", shape, ms_per_tu, expected_frames) {
-  copy_frames(path, frames);
+  copy_frames(path, kept.frames);
+  if (digest_ != kept.digest)
+    throw std::runtime_error(
+        fmt::format("cannot go on with {}: its frames are not those that were written", path.string()));
   sync();
   std::filesystem::rename(path_, path);
   path_ = path;
@@ -142,6 +147,10 @@ void FieldsFile::append(const solver::Frame& frame) {
     throw;
   }
   ++frames_;
+  const std::span<const double> none;
+  for (const auto values : {std::span(&frame.t, 1), frame.V, frame.r, shape_.tension ? frame.Ta : none,
+                            shape_.deforms() ? frame.nodes : none})
+    digest_ = XXH3_64bits_withSeed(values.data(), values.size_bytes(), digest_);
 }
 
 void FieldsFile::append_datasets(const solver::Frame& frame) {

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -28,13 +29,20 @@ class FieldsFile {
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
   // expected_frames: at most so many are to come; more are an index that grows.
   FieldsFile(std::filesystem::path, const FrameShape&, double ms_per_tu, std::size_t expected_frames);
-  // Goes on with a file that is there, whatever came of what follows its first `frames` frames: these are
-  // copied into a new one, which takes its place. Errors: std::runtime_error, also where they are not there.
+  // Frames so far, and XXH3 of what they hold, one after another.
+  struct Kept {
+    std::size_t frames = 0;
+    std::uint64_t digest = 0;
+  };
+  // Goes on with a file that is there, whatever came of what follows the frames that are kept: these are
+  // copied into a new one, which takes its place. Errors: std::runtime_error, also where they are not there,
+  // or others.
   FieldsFile(const std::filesystem::path&, const FrameShape&, double ms_per_tu, std::size_t expected_frames,
-             std::size_t frames);
+             const Kept&);
 
   void append(const solver::Frame&);
   std::size_t frames() const { return frames_; }
+  Kept kept() const { return {frames_, digest_}; }
   // All frames are on the disk when this returns.
   void sync();
 
@@ -54,6 +62,7 @@ class FieldsFile {
   Hdf5Handle file_;
   Dataset time_, V_, r_, Ta_, nodes_, grid_;
   std::size_t frames_ = 0;
+  std::uint64_t digest_ = 0;
 };
 
 }  // namespace myowave::apps

@@ -1,9 +1,13 @@
 #include "apps/run_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -86,12 +90,34 @@ std::string element_areas_header(const FrameShape& shape) {
   return header + '\n';
 }
 
+// For one run at a time; it ends with its owner, however that ends.
+class FolderLock {
+ public:
+  // Errors: InputError where another run has it.
+  explicit FolderLock(const fs::path& folder)
+      : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    close(folder_);
+    throw solver::InputError(fmt::format("{}: another run is at work in this folder", folder.string()));
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock() {
+    if (folder_ >= 0) close(folder_);
+  }
+
+ private:
+  int folder_;
+};
+
 }  // namespace
 
 struct RunFolder::Impl {
   // mark: null for a new folder.
-  Impl(fs::path path, const solver::Scene& scene, const nlohmann::json& mark, bool quiet)
+  Impl(fs::path path, std::unique_ptr<FolderLock> its_lock, const solver::Scene& scene,
+       const nlohmann::json& mark, bool quiet)
       : folder(std::move(path)),
+        lock(std::move(its_lock)),
         shape(frame_shape(scene)),
         probes(text_file("probes.csv", probes_header(scene.output), mark)),
         tips(text_file("tips.csv", "t,x,y,charge,trajectory\n", mark)),
@@ -128,9 +154,15 @@ struct RunFolder::Impl {
       fields.emplace(path, shape, ms_per_tu, expected);
       xdmf.emplace(description, shape, "fields.h5");
     } else {
-      fields.emplace(path, shape, ms_per_tu, expected, mark.at("fields").get<std::size_t>());
+      fields.emplace(path, shape, ms_per_tu, expected,
+                     FieldsFile::Kept{mark.at("fields").at("frames"), mark.at("fields").at("digest")});
       xdmf.emplace(description, shape, "fields.h5", mark.at("bytes").at("fields.xdmf").get<std::uintmax_t>());
     }
+  }
+
+  nlohmann::json kept_fields() const {
+    if (!fields) return nullptr;
+    return {{"frames", fields->kept().frames}, {"digest", fields->kept().digest}};
   }
 
   // On the disk, all of it.
@@ -143,10 +175,11 @@ struct RunFolder::Impl {
       fields->sync();
       bytes["fields.xdmf"] = xdmf->sync();
     }
-    return {{"bytes", bytes}, {"fields", fields ? fields->frames() : 0}, {"frames", pictures}};
+    return {{"bytes", bytes}, {"fields", kept_fields()}, {"frames", pictures}};
   }
 
   fs::path folder;
+  std::unique_ptr<FolderLock> lock;
   FrameShape shape;
   AppendedFile probes, tips, trajectories, sources, beats, area;
   std::optional<AppendedFile> element_areas;
@@ -175,21 +208,22 @@ void RunFolder::require_free(const fs::path& folder, bool force) {
 
 RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, bool force, bool quiet) {
   require_free(folder, force);
-  with_folder(folder, [&] {
-    fs::create_directories(folder);
-    remove_results(folder);
-  });
+  with_folder(folder, [&] { fs::create_directories(folder); });
+  auto lock = std::make_unique<FolderLock>(folder);
+  with_folder(folder, [&] { remove_results(folder); });
   try {
-    impl_ = std::make_unique<Impl>(std::move(folder), scene, nullptr, quiet);
+    impl_ = std::make_unique<Impl>(std::move(folder), std::move(lock), scene, nullptr, quiet);
   } catch (const std::runtime_error& error) {
     throw solver::InputError(error.what());
   }
 }
 
 RunFolder::RunFolder(fs::path folder, const solver::Scene& scene, const std::string& mark, bool quiet) {
+  auto lock = std::make_unique<FolderLock>(folder);
   try {
     remove_left_overs(folder);
-    impl_ = std::make_unique<Impl>(std::move(folder), scene, nlohmann::json::parse(mark), quiet);
+    impl_ =
+        std::make_unique<Impl>(std::move(folder), std::move(lock), scene, nlohmann::json::parse(mark), quiet);
   } catch (const nlohmann::json::exception& error) {
     throw solver::InputError(
         fmt::format("the checkpoint's mark of the outputs cannot be read: {}", error.what()));

@@ -230,8 +230,9 @@ TEST_F(Sweeps, SlurmScript) {
   EXPECT_THAT(outcome.output, HasSubstr("sbatch " + path("s/sweep.sbatch")));
   EXPECT_THAT(outcome.output, HasSubstr("parallel --joblog"));
   EXPECT_THAT(read_text(folder_ / "s/sweep.sbatch"), HasSubstr("#SBATCH --array=1-3\n"));
-  if (std::system("command -v shellcheck >/dev/null") == 0)
+  if (std::system("command -v shellcheck >/dev/null") == 0) {
     EXPECT_EQ(std::system(("shellcheck " + path("s/sweep.sbatch")).c_str()), 0);
+  }
   EXPECT_EQ(sweep({"--slurm", "--time", "soon"}).status, 2);
   EXPECT_EQ(sweep({"--tasks", "3"}).status, 2);
 }
