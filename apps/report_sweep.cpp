@@ -158,6 +158,12 @@ Plot breakup_plot(const SweepView& view, const std::string& title, const std::ve
   return plot;
 }
 
+// What the runs of a plot have in common, in words.
+std::string start_name(const StoredPlan& plan, const Layout& layout, const std::string& words) {
+  const bool is_start = layout.plots.size() == 1 && plan.axes[layout.plots[0]].key == "initial";
+  return is_start ? "start " + words : words;
+}
+
 struct Shown {
   const char* column;
   const char* label;
@@ -178,8 +184,10 @@ std::vector<NamedPlot> observable_plots(const SweepView& view) {
   std::vector<NamedPlot> plots;
   for (const Shown& one : shown) {
     Plot plot{.title = one.label, .x = view.x_axis(), .y = {.label = one.label, .unit = one.unit}};
+    int number = 0;  // a curve has one colour in all plots
     for (const auto& [name, rows] : view.groups(view.rows(), others)) {
       Series series = view.curve(name.empty() ? "runs" : name, rows, one.column, one.factor);
+      series.colour = number++;
       const bool any = std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); });
       if (any) plot.series.push_back(std::move(series));
     }
@@ -252,12 +260,13 @@ std::vector<NamedPlot> sweep_plots(const SweepTable& table) {
   const bool any_end = std::ranges::any_of(rows, [&](std::size_t row) { return !view.failed(row); });
   const auto groups = view.groups(rows, view.layout().plots);
   for (std::size_t n = 0; any_end && n < std::min(groups.size(), most_plots); ++n) {
-    const std::string title = groups[n].first.empty() ? "first break-up" : "start " + groups[n].first;
-    plots.push_back({groups.size() > 1 ? fmt::format("breakup_{}", n) : "breakup",
-                     fmt::format("{}: first break-up. A run that did not break up is shown where it died, or "
-                                 "at its end.",
-                                 title),
-                     breakup_plot(view, title, groups[n].second)});
+    const std::string title = start_name(table.plan, view.layout(), groups[n].first);
+    plots.push_back(
+        {groups.size() > 1 ? fmt::format("breakup_{}", n) : "breakup",
+         fmt::format("First break-up{}. A run that did not break up is shown where it died, or at "
+                     "its end.",
+                     title.empty() ? "" : ", " + title),
+         breakup_plot(view, title.empty() ? "first break-up" : title, groups[n].second)});
   }
   for (auto& plot : observable_plots(view)) plots.push_back(std::move(plot));
   return plots;

@@ -33,8 +33,10 @@ constexpr std::string_view before_check = "{\"check\":\"", after_check = "\",";
 constexpr std::size_t check_length = 16;
 
 std::string_view checked_part(std::string_view line) {
-  const std::size_t begin = before_check.size() + check_length + after_check.size();
-  return line.size() > begin && line.starts_with(before_check) ? line.substr(begin) : std::string_view();
+  const std::size_t end = before_check.size() + check_length;
+  const bool complete = line.starts_with(before_check) && line.size() > end + after_check.size() &&
+                        line.substr(end, after_check.size()) == after_check;
+  return complete ? line.substr(end + after_check.size()) : std::string_view();
 }
 
 bool is_intact(std::string_view line) {
