@@ -100,6 +100,44 @@ TEST(FieldsFile, GivesBackEachFrameToTheLastBit) {
   EXPECT_THAT(size, testing::ElementsAre(3, 21, 31, 2));
 }
 
+// A run that goes on keeps the frames up to its checkpoint, whatever its file has become since.
+TEST(FieldsFile, GoesOnAfterTheFramesThatItKeeps) {
+  for (const bool deforms : {true, false}) {
+    const TemporaryFolder folder;
+    auto scene = scene_of(21, 31, deforms);
+    scene.output.tension = deforms;
+    const auto shape = frame_shape(scene);
+    write_frames(folder, scene, 5);
+    SyntheticFrames frames(scene);
+    const auto path = folder / "torn.h5";
+    FieldsFile::Kept kept;
+    {
+      FieldsFile fields(path, shape, 10, 5);
+      for (int n = 0; n < 4; ++n) {
+        fields.append(frames.at(0.5 * n));
+        if (n == 2) kept = fields.kept();
+      }
+    }
+    EXPECT_EQ(kept.frames, 3U);
+    std::ofstream(path, std::ios::app) << "what was written when it was killed";
+    {
+      FieldsFile fields(path, shape, 10, 5, kept);
+      EXPECT_EQ(fields.kept().digest, kept.digest);
+      for (int n = 3; n < 5; ++n) fields.append(frames.at(0.5 * n));
+    }
+    for (const char* name : {"time", "V", "r", "Ta", "nodes", "grid"}) {
+      if (!deforms && name != std::string("time") && name != std::string("V") && name != std::string("r"))
+        continue;
+      std::vector<hsize_t> size, expected_size;
+      EXPECT_EQ(read_all(path, name, size), read_all(folder / "fields.h5", name, expected_size)) << name;
+      EXPECT_EQ(size, expected_size);
+    }
+    EXPECT_THROW(FieldsFile(path, shape, 10, 5, {3, kept.digest + 1}), std::runtime_error);
+    EXPECT_THROW(FieldsFile(path, shape, 10, 5, {6, kept.digest}), std::runtime_error);
+    EXPECT_THROW(FieldsFile(folder / "none.h5", shape, 10, 5, kept), std::runtime_error);
+  }
+}
+
 TEST(FieldsFile, ARigidRunHasNoNodes) {
   const TemporaryFolder folder;
   write_frames(folder, scene_of(5, 7, false), 1);
