@@ -12,28 +12,36 @@ struct Execution {
   Kokkos::DefaultHostExecutionSpace host{};  // the mechanics
 };
 
+// The choices below stand in templates: only there is the branch that does not fit the backend left out.
+
 // A host instance beside the default one. Empty where the backend has a single one, or a single core for
 // everything.
-inline std::optional<Kokkos::DefaultHostExecutionSpace> own_host_instance([[maybe_unused]] int threads) {
-  using Host = Kokkos::DefaultHostExecutionSpace;
+template <class Host = Kokkos::DefaultHostExecutionSpace>
+std::optional<Host> own_host_instance([[maybe_unused]] int threads) {
 #ifdef KOKKOS_ENABLE_OPENMP
-  if constexpr (std::is_same_v<Host, Kokkos::OpenMP>) return Kokkos::OpenMP(threads);
+  if constexpr (std::is_same_v<Host, Kokkos::OpenMP>) return Host(threads);
 #endif
 #ifdef KOKKOS_ENABLE_SERIAL
-  if constexpr (std::is_same_v<Host, Kokkos::Serial>) return Kokkos::Serial(Kokkos::NewInstance{});
+  if constexpr (std::is_same_v<Host, Kokkos::Serial>) return Host(Kokkos::NewInstance{});
 #endif
   return std::nullopt;
 }
 
-// Instances of one thread of the program: host threads as given, and on a device a queue (stream) of its own,
-// so that the kernels of several small sheets fill it together. Empty as above.
+// The host instance itself where the excitation runs there too, else a queue (stream) of its own, so that the
+// kernels of several small sheets fill the device together.
+template <class Device = Kokkos::DefaultExecutionSpace>
+Device own_device_instance(const Kokkos::DefaultHostExecutionSpace& host) {
+  if constexpr (std::is_same_v<Device, Kokkos::DefaultHostExecutionSpace>)
+    return host;
+  else
+    return Kokkos::Experimental::partition_space(Device(), 1)[0];
+}
+
+// Instances of one thread of the program, with so many host threads. Empty as above.
 inline std::optional<Execution> own_execution(int threads) {
   const auto host = own_host_instance(threads);
   if (!host) return std::nullopt;
-  if constexpr (std::is_same_v<Kokkos::DefaultExecutionSpace, Kokkos::DefaultHostExecutionSpace>)
-    return Execution{*host, *host};
-  else
-    return Execution{Kokkos::Experimental::partition_space(Kokkos::DefaultExecutionSpace(), 1)[0], *host};
+  return Execution{.device = own_device_instance(*host), .host = *host};
 }
 
 }  // namespace myowave::solver
