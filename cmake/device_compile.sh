@@ -65,21 +65,35 @@ is_fresh() {
 compile() {
   local source=$1 object=$2
   "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" \
-    -MD -MF "$object.d" -c "$source" -o "$object.new" >"$object.log" 2>&1 || { cat "$object.log"; return 1; }
+    -MD -MF "$object.d" -c "$source" -o "$object.new" >"$object.log" 2>&1 || return 1
   mv "$object.new" "$object"
 }
 
 "find_$backend"
 write_overlay
+object_of() { echo "$work/$(basename "${1%.cpp}").o"; }
+
+# As many at once as there are cores: together they take longer than all other tests.
+for source in "$@"; do
+  object=$(object_of "$source")
+  rm -f "$object.failed"
+  while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n || true; done
+  { is_fresh "$object" || compile "$source" "$object" || touch "$object.failed"; } &
+done
+wait
 failed=0 compiled=()
 for source in "$@"; do
-  object=$work/$(basename "${source%.cpp}").o
+  object=$(object_of "$source")
   echo "$backend: ${source#"$project"/}"
-  is_fresh "$object" || compile "$source" "$object" || { failed=1; continue; }
-  compiled+=("$source")
+  if [ -e "$object.failed" ]; then
+    cat "$object.log"
+    failed=1
+  else
+    compiled+=("$source")
+  fi
 done
 for source in "${compiled[@]}"; do
   echo "source: ${source#"$project"/}"
-  cat "$work/$(basename "${source%.cpp}").o.log"
+  cat "$(object_of "$source").log"
 done | "$project/cmake/kernel_resources.sh" || failed=1
 exit $failed
