@@ -172,6 +172,7 @@ void sweep(const SweepRequest& request) {
   const SweepFolder folder(request.out ? fs::path(*request.out) : fs::path("out") / plan.name);
   if (request.slurm && !request.dry_run) return write_slurm(request, plan, folder);
 
+  if (!request.dry_run) watch_signals();  // first of all: a start takes long where the machine is busy
   const Device device;
   const int jobs = jobs_of(request);
   const auto runs = runs_of(plan, shard);
@@ -185,7 +186,6 @@ void sweep(const SweepRequest& request) {
   const Records there = read_records(folder.path());
   const Work work = work_of(runs, there, request);
   tell_what_is_there(there, work, request);
-  watch_signals();
   Counts counts;
   try {
     do_members(plan, work.pending, folder, jobs, request.quiet, records, counts);
