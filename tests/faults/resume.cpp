@@ -23,6 +23,7 @@
 
 #include "apps/hdf5_handle.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/process.hpp"
 #include "tests/support/sheets.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -34,58 +35,6 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 constexpr int stopped_on_request = 75;
-
-// The command, at work beside the test. What it says goes into a file.
-class Process {
- public:
-  Process(const std::vector<std::string>& arguments, const fs::path& errors) : errors_(errors) {
-    std::vector<std::string> line{MYOWAVE_EXECUTABLE};
-    line.insert(line.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (auto& one : line) argv.push_back(one.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&files, 2, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    EXPECT_EQ(posix_spawn(&id_, MYOWAVE_EXECUTABLE, &files, nullptr, argv.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&files);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-  ~Process() {
-    if (!status_) send(SIGKILL), wait();
-  }
-
-  void send(int signal) const { kill(id_, signal); }
-
-  // Exit status, or minus the signal that ended it.
-  int wait() {
-    int status = 0;
-    while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-    }
-    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return *status_;
-  }
-
-  // Of what it writes, for at most some seconds.
-  bool waits_until_there(const fs::path& path, std::uintmax_t bytes = 1) const {
-    constexpr int most = 30000;  // ms: the machine may be busy
-    for (int n = 0; n < most; ++n) {
-      std::error_code missing;
-      if (const auto size = fs::file_size(path, missing); !missing && size >= bytes) return true;
-      std::this_thread::sleep_for(milliseconds(1));
-    }
-    return false;
-  }
-
-  std::string errors() const { return read_text(errors_); }
-
- private:
-  pid_t id_ = 0;
-  fs::path errors_;
-  std::optional<int> status_;
-};
 
 std::string values_of_hdf5(const fs::path& path) {
   std::string values;
