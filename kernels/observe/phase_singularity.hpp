@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "kernels/base/compare.hpp"
 #include "kernels/base/row_loop.hpp"
 #include "kernels/base/views.hpp"
 #include "kernels/tissue/grid.hpp"
@@ -74,16 +73,20 @@ inline constexpr int block_columns = 63;
 // Bit k: V[k] >= 0.5, for k < nodes <= 64. `largest` becomes at least the largest V of them.
 template <class Real>
 KOKKOS_INLINE_FUNCTION std::uint64_t high_nodes(const Real* V, int nodes, double& largest) {
-  constexpr Real level = 0.5;
-  Real most = V[0];
-#pragma omp simd reduction(max : most)
-  for (int k = 0; k < nodes; ++k) most = V[k] > most ? V[k] : most;
-  largest = Kokkos::max(largest, double(most));
   std::uint64_t high = 0;
-  int k = 0;
-  KOKKOS_IF_ON_HOST((for (; k + compared_together<Real> <= nodes; k += compared_together<Real>) high |=
-                     not_below(V + k, level) << k;))
-  for (; k < nodes; ++k) high |= std::uint64_t(V[k] >= level ? 1 : 0) << k;
+  Real most = V[0];
+  const auto look = [&](int n) {
+#pragma omp simd reduction(| : high) reduction(max : most)
+    for (int k = 0; k < n; ++k) {
+      high |= std::uint64_t(V[k] >= Real(0.5) ? 1 : 0) << k;
+      most = V[k] > most ? V[k] : most;
+    }
+  };
+  if (nodes == block_columns + 1)
+    look(block_columns + 1);  // most are; a loop of known length
+  else
+    look(nodes);
+  largest = Kokkos::max(largest, double(most));
   return high;
 }
 
