@@ -67,8 +67,9 @@ AppendedFile::AppendedFile(std::filesystem::path path, std::uintmax_t size) : pa
 }
 
 std::uintmax_t AppendedFile::sync() {
-  sync_file(path_);
-  return std::filesystem::file_size(path_);
+  const auto size = std::filesystem::file_size(path_);
+  if (size != synced_) sync_file(path_);
+  return *(synced_ = size);
 }
 
 void AppendedFile::append(std::string_view rows) { write_all(file_.get(), rows, path_); }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,7 @@ class AppendedFile {
   };
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
+  std::optional<std::uintmax_t> synced_;  // size at the last sync()
 };
 
 }  // namespace myowave::apps
