@@ -47,7 +47,9 @@ StoredPlan plan_of(const json& stored) {
   for (const auto& run : stored.at("runs")) plan.runs.push_back({run.at("id"), run.at("at")});
   for (const auto& run : plan.runs) {
     if (run.at.size() != plan.axes.size()) throw std::out_of_range("a run has not one value an axis");
-    for (std::size_t n = 0; n < run.at.size(); ++n) (void)plan.axes[n].values.at(run.at[n]);
+    for (std::size_t n = 0; n < run.at.size(); ++n)
+      if (run.at[n] >= plan.axes[n].values.size())
+        throw std::out_of_range("a run has a value that its axis lacks");
   }
   const json& pairs = stored.at("pairs");
   if (!pairs.is_null())

@@ -81,7 +81,7 @@ std::string text_of(const json& value) {
 }
 
 std::string csv_cell(const json& value) {
-  const std::string text = text_of(value);
+  std::string text = text_of(value);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);

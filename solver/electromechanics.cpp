@@ -69,7 +69,7 @@ auto first_rows(const Kokkos::View<DataType, Traits...>& view, std::size_t rows)
 // What the space has made of it, and of nothing that others have at work.
 template <class ExecutionSpace, class View>
 auto mirror_of(const ExecutionSpace& space, const View& view) {
-  const auto host = Kokkos::create_mirror_view(Kokkos::WithoutInitializing, view);
+  auto host = Kokkos::create_mirror_view(Kokkos::WithoutInitializing, view);
   Kokkos::deep_copy(space, host, view);
   space.fence("myowave::solver::mirror_of");
   return host;
