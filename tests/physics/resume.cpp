@@ -346,7 +346,9 @@ TEST(RandomScenes, StoppedAndGoneOnWithGiveTheSameBits) {
       gone_on += parts > 1;
     }
   });
-  if (!std::getenv("MYOWAVE_SEEDS")) EXPECT_GE(gone_on, 60);
+  if (!std::getenv("MYOWAVE_SEEDS")) {
+    EXPECT_GE(gone_on, 60);
+  }
 }
 
 // Another number of threads goes on with the same bits.
