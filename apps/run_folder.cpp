@@ -136,7 +136,7 @@ struct RunFolder::Impl {
     if (scene.output.frames) {
       fs::create_directories(folder / "frames");
       picture.emplace(scene);
-      if (!mark.is_null()) pictures = mark.at("frames");
+      if (!mark.is_null()) pictures = synced_pictures = mark.at("frames");
     }
   }
 
@@ -165,6 +165,10 @@ struct RunFolder::Impl {
     return {{"frames", fields->kept().frames}, {"digest", fields->kept().digest}};
   }
 
+  fs::path picture_path(std::size_t number) const {
+    return folder / "frames" / fmt::format("frame_{:05}.png", number);
+  }
+
   // On the disk, all of it.
   nlohmann::json mark() {
     nlohmann::json bytes;
@@ -175,6 +179,7 @@ struct RunFolder::Impl {
       fields->sync();
       bytes["fields.xdmf"] = xdmf->sync();
     }
+    for (; synced_pictures < pictures; ++synced_pictures) sync_file(picture_path(synced_pictures));
     return {{"bytes", bytes}, {"fields", kept_fields()}, {"frames", pictures}};
   }
 
@@ -186,7 +191,7 @@ struct RunFolder::Impl {
   std::optional<FieldsFile> fields;
   std::optional<XdmfFile> xdmf;
   std::optional<FramePicture> picture;
-  std::size_t pictures = 0;
+  std::size_t pictures = 0, synced_pictures = 0;
   ProgressLine progress;
 };
 
@@ -250,8 +255,8 @@ void RunFolder::fields(const solver::Frame& frame) {
     impl_->xdmf->append(impl_->fields->frames() - 1, frame.t);
   }
   if (impl_->picture) {
-    const auto name = fmt::format("frame_{:05}.png", impl_->pictures++);
-    replace_file(impl_->folder / "frames" / name, impl_->picture->draw(frame).png());
+    replace_file(impl_->picture_path(impl_->pictures), impl_->picture->draw(frame).png());
+    ++impl_->pictures;
   }
 }
 

@@ -10,11 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <ctime>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 #include "apps/content_hash.hpp"
 #include "apps/schema.hpp"
@@ -48,12 +50,16 @@ bool is_intact(std::string_view line) {
 std::string why_no_record(std::string_view line, json& record) {
   if (!is_intact(line)) return "is damaged: its checksum does not fit";
   record = json::parse(line, nullptr, false);
-  if (!record.is_object() || !record.contains("schema") || !record["schema"].is_number_integer() ||
-      !record.contains("id") || !record["id"].is_string())
+  const auto is_text = [](const json& parent, const char* key) {
+    return parent.is_object() && parent.contains(key) && parent[key].is_string();
+  };
+  if (!is_text(record, "id") || !record.contains("schema") || !record["schema"].is_number_integer())
     return "is no record of a sweep";
   if (record["schema"] > sweep_schema)
     return fmt::format("is of a newer myowave (schema {}, here {})", record["schema"].get<int>(),
                        sweep_schema);
+  if (!is_text(record, "outcome") || !record.contains("program") || !is_text(record["program"], "git_hash"))
+    return "is no record of a sweep";
   return "";
 }
 
@@ -160,16 +166,27 @@ Records read_records(const fs::path& sweep_folder) {
   return records;
 }
 
-bool failed(const json& record) { return record.value("outcome", "") == "failed"; }
+bool failed(const json& record) { return record["outcome"] == "failed"; }
 
-bool of_this_revision(const json& record) {
-  return record.contains("program") && record["program"].value("git_hash", "") == git_hash;
-}
+bool of_this_revision(const json& record) { return record["program"]["git_hash"] == git_hash; }
 
 // ---- the lock ---------------------------------------------------------------------------------
 
+namespace {
+
+// Somebody who only asks for the owner has it for an instant.
+bool locks(int file) {
+  for (int tries = 0; tries < 5; ++tries) {
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+}  // namespace
+
 ShardLock::ShardLock(const fs::path& path) : file_(open_for_writing(path, O_RDWR)) {
-  if (flock(file_, LOCK_EX | LOCK_NB) != 0 || !is_in_place(file_, path)) {
+  if (!locks(file_) || !is_in_place(file_, path)) {
     close(file_);
     throw std::runtime_error(fmt::format(
         "{} is locked: this shard is being run by {}; wait for it or end it, or run another shard",

@@ -32,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr int stopped_on_request = 75;
@@ -227,6 +228,44 @@ TEST_F(ResumedCommand, KilledAtAnyInstantLosesNothing) {
     EXPECT_GE(gone_on, kills / 4);
     if (HasFailure()) return;
   }
+}
+
+// Files that cannot grow to the size of a checkpoint, as on a full disk: a run ends all the same, and tells
+// of each checkpoint that it has not; one that is stopped has to tell that it cannot be gone on with.
+TEST_F(ResumedCommand, WithoutRoomForACheckpointGoesOnWithoutIt) {
+  write_scene(contracting);
+  std::vector<std::string> settings;
+  for (const char* one : {"fields=false", "frames=false", "maps=false", "tips_every=1", "probes_every=1"})
+    settings.insert(settings.end(), {"--set", std::string("output.") + one});
+  // 20 blocks of 512 bytes or 1 KiB, as the shell has it; a checkpoint takes more than 40 KiB.
+  const auto with_small_files = [&](const std::string& more) {
+    return Process(
+        {"-c", fmt::format("trap '' XFSZ; ulimit -f 20; exec '{}' run '{}' --out '{}' --force "
+                           "--quiet {} {}",
+                           MYOWAVE_EXECUTABLE, scene.string(), out.string(), fmt::join(settings, " "), more)},
+        told, "sh");
+  };
+  std::vector<std::string> line{"run", scene.string(), "--out", whole.string(), "--quiet"};
+  line.insert(line.end(), settings.begin(), settings.end());
+  ASSERT_EQ(run_myowave(line).status, 0);
+  Process run = with_small_files("");
+  EXPECT_EQ(run.wait(), 0) << run.errors();
+  EXPECT_THAT(run.errors(), AllOf(HasSubstr("t = 0.6 t.u.: no checkpoint"), HasSubstr("File too large")));
+  auto expected = results(whole), actual = results(out);
+  EXPECT_THAT(actual.at("summary.json"), HasSubstr("no checkpoint"));  // among its warnings
+  for (auto* one : {&expected, &actual}) one->erase("summary.json");
+  std::erase_if(expected, [](const auto& file) { return file.first.starts_with("checkpoints"); });
+  expect_same(actual, expected);
+
+  fs::remove_all(out);
+  Process stopped =
+      with_small_files("--until 1e5 --set output.checkpoint_every=0 --set output.element_areas=false");
+  ASSERT_TRUE(stopped.waits_until_there(out / "sources.csv", 20));
+  stopped.send(SIGTERM);
+  EXPECT_EQ(stopped.wait(), 1) << stopped.errors();
+  EXPECT_THAT(stopped.errors(),
+              AllOf(HasSubstr((out / "checkpoints").string()), HasSubstr("File too large")));
+  EXPECT_EQ(run_myowave({"run", "--resume", out.string()}).status, 2);
 }
 
 TEST_F(ResumedCommand, NeedsItsSceneFileNoMore) {

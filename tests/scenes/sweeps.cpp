@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/sweep_records.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -233,6 +234,52 @@ TEST_F(Sweeps, SlurmScript) {
   }
   EXPECT_EQ(sweep({"--slurm", "--time", "soon"}).status, 2);
   EXPECT_EQ(sweep({"--tasks", "3"}).status, 2);
+}
+
+TEST_F(Sweeps, TheLineForGnuParallelDoesAllShards) {
+  if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
+  write(small_sweep);
+  ASSERT_EQ(sweep({"--out", path("whole")}).status, 0);
+  const Outcome outcome = sweep({"--out", path("p"), "--slurm", "--tasks", "3", "--cpus", "1"});
+  const auto begin = outcome.output.find("seq 3 |");
+  ASSERT_NE(begin, std::string::npos) << outcome.output;
+  const std::string line = outcome.output.substr(begin) + " 2>" + path("told.txt");
+  const auto in_shell = [](std::string text) {
+    std::erase(text, '\n');
+    return std::system(text.c_str());
+  };
+  EXPECT_EQ(in_shell(line), 0) << read_text(folder_ / "told.txt");
+  EXPECT_EQ(reproducible("p"), reproducible("whole"));
+  const std::string log = read_text(folder_ / "p/parallel.log");
+  EXPECT_EQ(std::ranges::count(log, '\n'), 4) << log;
+  // Nothing is left to do.
+  EXPECT_EQ(in_shell(line), 0);
+  EXPECT_EQ(read_text(folder_ / "p/parallel.log"), log);
+}
+
+// Records as another revision would have left them.
+TEST_F(Sweeps, RedoesOtherRevisionsWhereAsked) {
+  write(small_sweep);
+  ASSERT_EQ(sweep({"--out", path("a")}).status, 0);
+  const json expected = reproducible("a");
+  const fs::path file = folder_ / "a/records/shard_1_of_1.jsonl";
+  std::istringstream lines(read_text(file));
+  std::string others;
+  for (std::string line; std::getline(lines, line);) {
+    auto record = nlohmann::ordered_json::parse(line);
+    record.erase("check");
+    record["program"]["git_hash"] = "another";
+    record["outcome"] = "failed";
+    others += apps::record_line(record);
+  }
+  std::ofstream(file) << others;
+  const Outcome kept = sweep({"--out", path("a")});
+  EXPECT_EQ(kept.status, 0);
+  EXPECT_THAT(kept.errors, HasSubstr("6 of the runs that are done are of another revision of myowave"));
+  EXPECT_EQ(read_text(file), others);
+  ASSERT_EQ(sweep({"--out", path("a"), "--redo-other-revisions"}).status, 0);
+  EXPECT_TRUE(read_text(file).starts_with(others));
+  EXPECT_EQ(reproducible("a"), expected);
 }
 
 // Fig 11's rigid spiral at mu1 = 0.1 (apps/figures/first_breakup.cpp): its state as a run of its own.

@@ -93,12 +93,16 @@ TEST(Records, EveryFlippedBitIsSeen) {
 TEST(Records, ForeignAndNewerLinesAreTold) {
   const RecordsFolder folder;
   folder.write("hello\n\n{\"check\":\"0123456789abcdef\",\"schema\":1}\n" + record_line({{"some", "thing"}}) +
-               record_line(record("new", "end", git_hash, sweep_schema + 1)) + record_line(record("a")));
+               record_line(record("new", "end", git_hash, sweep_schema + 1)) + record_line(record("a")) +
+               record_line({{"schema", 1}, {"id", "b"}, {"program", "myowave"}, {"outcome", "end"}}) +
+               record_line({{"schema", 1}, {"id", "c"}, {"program", {{"git_hash", "x"}}}, {"outcome", 5}}));
   const auto records = folder.read();
   EXPECT_THAT(records.by_id, SizeIs(1));
-  ASSERT_THAT(records.refused, SizeIs(5));
+  ASSERT_THAT(records.refused, SizeIs(7));
   EXPECT_THAT(records.refused[3], HasSubstr(":4: the line is no record of a sweep"));
   EXPECT_THAT(records.refused[4], HasSubstr(":5: the line is of a newer myowave (schema 2, here 1)"));
+  EXPECT_THAT(records.refused[5], HasSubstr(":7: the line is no record of a sweep"));
+  EXPECT_THAT(records.refused[6], HasSubstr(":8: the line is no record of a sweep"));
 }
 
 // A success before a failure, this revision before another, then the later.
