@@ -185,9 +185,12 @@ struct Equilibrium<ExecutionSpace>::Impl {
   void turn_upright(const ExecutionSpace& space) {
     if (settings.edges == Edges::fixed) return;
     const int middle = middle_node(grid);
-    const auto pins = Kokkos::create_mirror_view_and_copy(
-        Kokkos::HostSpace{}, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
-    if (pins(1, 0) >= pins(0, 0)) return;
+    const auto pins = Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL);
+    const auto pins_host = Kokkos::create_mirror_view(pins);
+    // create_mirror_view_and_copy() would wait for the kernels of all instances.
+    Kokkos::deep_copy(space, pins_host, pins);
+    space.fence("myowave::elastic::pins");
+    if (pins_host(1, 0) >= pins_host(0, 0)) return;
     elastic::turn_around(space, middle, current);
     start_has_factor = false;
   }

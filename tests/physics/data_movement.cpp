@@ -32,6 +32,7 @@ static_assert(std::is_same_v<solver::Electromechanics<Space, double>::Host::memo
 
 struct Recording {
   std::vector<std::string> allocations, fences, kernels;
+  std::vector<std::string> fences_of_all;  // those for which a member of an ensemble waits for the others
   int copies = 0;
   std::vector<Movement> movements;
 };
@@ -61,6 +62,11 @@ bool is_for_show(const std::string& label) {
          (on_host && label == "myowave::observe::record_probes");
 }
 
+bool waits_for_all_instances(std::uint32_t device) {
+  constexpr std::uint32_t all = 0;  // the number that no instance has
+  return Kokkos::Tools::Experimental::identifier_from_devid(device).instance_id == all;
+}
+
 // What Kokkos does during an action.
 template <class Action>
 Recording record(const Action& action) {
@@ -72,8 +78,10 @@ Recording record(const Action& action) {
   };
   tools::set_begin_parallel_for_callback(add_kernel);
   tools::set_begin_parallel_reduce_callback(add_kernel);
-  tools::set_begin_fence_callback([](const char* label, std::uint32_t, std::uint64_t*) {
-    if (!is_for_show(label)) recording->fences.emplace_back(label);
+  tools::set_begin_fence_callback([](const char* label, std::uint32_t device, std::uint64_t*) {
+    if (is_for_show(label)) return;
+    recording->fences.emplace_back(label);
+    if (waits_for_all_instances(device)) recording->fences_of_all.emplace_back(label);
   });
   tools::set_allocate_data_callback(
       [](Kokkos::Tools::SpaceHandle, const char* label, const void*, std::uint64_t) {
@@ -219,6 +227,18 @@ TYPED_TEST(DataMovement, ALookMovesTheTipsAloneAndAStimulusOnce) {
   }
 }
 
+TYPED_TEST(DataMovement, NothingWaitsForOtherInstances) {
+  for (const auto metric : {solver::MetricForm::conservative, solver::MetricForm::expanded}) {
+    Sheet<TypeParam> sheet(contracting_front(metric));
+    for (int n = 0; n < 4; ++n) {
+      EXPECT_THAT(sheet.solve().fences_of_all, IsEmpty());
+      EXPECT_THAT(sheet.advance(interval).fences_of_all, IsEmpty());
+      EXPECT_THAT(sheet.find_tips().fences_of_all, IsEmpty());
+      EXPECT_THAT(sheet.sample_probes().fences_of_all, IsEmpty());
+    }
+  }
+}
+
 TEST(DataMovementRecorder, SeesWhatKokkosDoes) {
   const Recording seen = record([] {
     const Kokkos::View<double*, Space> view("view", 5);
@@ -228,6 +248,7 @@ TEST(DataMovementRecorder, SeesWhatKokkosDoes) {
   });
   EXPECT_THAT(seen.allocations, ::testing::Contains("view"));
   EXPECT_THAT(seen.fences, ::testing::Contains("a fence"));
+  EXPECT_THAT(seen.fences_of_all, ::testing::Contains("a fence"));
   EXPECT_THAT(seen.movements, ElementsAre(Movement{"view", 5 * sizeof(double)}));
 }
 
