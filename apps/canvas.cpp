@@ -53,6 +53,14 @@ void set_colour(cairo_t* context, Colour colour, double opacity) {
   cairo_set_source_rgba(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
 }
 
+void stroke(cairo_t* context, const Pen& pen) {
+  set_colour(context, pen.colour, pen.opacity);
+  cairo_set_line_width(context, pen.width);
+  const double dash[] = {4, 2.5};
+  cairo_set_dash(context, dash, pen.dashed ? 2 : 0, 0);
+  cairo_stroke(context);
+}
+
 }  // namespace
 
 double text_width(std::string_view text, const TextStyle& style) {
@@ -92,11 +100,7 @@ void Canvas::line(std::span<const Point> points, const Pen& pen) {
   cairo_t* context = impl_->context.get();
   cairo_move_to(context, points[0].x, points[0].y);
   for (const Point& point : points.subspan(1)) cairo_line_to(context, point.x, point.y);
-  set_colour(context, pen.colour, pen.opacity);
-  cairo_set_line_width(context, pen.width);
-  const double dash[] = {4, 2.5};
-  cairo_set_dash(context, dash, pen.dashed ? 2 : 0, 0);
-  cairo_stroke(context);
+  stroke(context, pen);
 }
 
 void Canvas::rectangle(const Box& box, Colour fill, double opacity) {
@@ -119,6 +123,12 @@ void Canvas::disc(Point centre, double radius, Colour colour) {
   cairo_arc(impl_->context.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
   set_colour(impl_->context.get(), colour, 1);
   cairo_fill(impl_->context.get());
+}
+
+void Canvas::ring(Point centre, double radius, const Pen& pen) {
+  cairo_new_sub_path(impl_->context.get());
+  cairo_arc(impl_->context.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+  stroke(impl_->context.get(), pen);
 }
 
 void Canvas::text(Point at, std::string_view text, const TextStyle& style) {

@@ -49,6 +49,7 @@ class Canvas {
   void rectangle(const Box&, Colour fill, double opacity = 1);
   void frame(const Box&, const Pen&);
   void disc(Point centre, double radius, Colour);
+  void ring(Point centre, double radius, const Pen&);
   // The point is on the base line.
   void text(Point, std::string_view, const TextStyle&);
   void image(const Box&, const Picture&);

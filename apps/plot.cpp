@@ -35,6 +35,8 @@ const char* mark_name(Mark mark) {
       return "line";
     case Mark::points:
       return "points";
+    case Mark::rings:
+      return "rings";
     case Mark::linked_points:
       return "linked_points";
     case Mark::steps:

@@ -18,7 +18,8 @@ struct Axis {
   std::optional<double> min{}, max{};  // else from the data
 };
 
-enum class Mark { line, points, linked_points, steps, bars };
+// Rings tell what a point does not: a bound instead of a value.
+enum class Mark { line, points, rings, linked_points, steps, bars };
 
 struct Series {
   std::string name{};            // empty: not in the legend

@@ -14,9 +14,13 @@ constexpr double tallest = 1.2;  // the same, of equal scales
 constexpr double tick_length = 3.5;
 constexpr double margin_of_data = 0.04;  // of the range, so that data do not lie on the axes
 constexpr double legend_line = 13, legend_sample = 18, legend_gap = 5;
+constexpr double point_radius = 1.9;
 constexpr Colour ink{30, 30, 30}, grey{150, 150, 150};
 constexpr Pen axis_pen{ink, 0.7};
 constexpr TextStyle number_style{.size = 8.5}, label_style{.size = 9.5}, legend_style{.size = 8.5};
+
+// No line goes from one to the next.
+bool stands_alone(Mark mark) { return mark == Mark::points || mark == Mark::rings; }
 
 // Curves over time go from one end of the axis to the other.
 bool fills_its_width(const Plot& plot) {
@@ -152,7 +156,7 @@ bool PlotPanel::hides_data(const Box& legend) const {
     for (const Line& line : pieces(series)) {
       Point last = line.front();
       for (const Point& p : line) {
-        const bool linked = series.mark != Mark::points;
+        const bool linked = !stands_alone(series.mark);
         const int parts = linked ? 1 + static_cast<int>(std::hypot(p.x - last.x, p.y - last.y) / 3) : 1;
         for (int part = 1; part <= parts; ++part) {
           const double along = double(part) / parts;
@@ -247,7 +251,7 @@ void PlotPanel::draw_marks(Canvas& canvas, std::size_t n) const {
       canvas.frame(bar(series, k), {.colour = colour, .width = 0.6});
     }
   }
-  const bool line = series.mark != Mark::points && series.mark != Mark::bars;
+  const bool line = !stands_alone(series.mark) && series.mark != Mark::bars;
   const bool points = series.mark == Mark::points || series.mark == Mark::linked_points;
   for (std::size_t k = 0; k < std::min(series.error.size(), series.y.size()); ++k) {
     if (!std::isfinite(series.y[k]) || !(series.error[k] > 0)) continue;
@@ -263,7 +267,9 @@ void PlotPanel::draw_marks(Canvas& canvas, std::size_t n) const {
     if (line) canvas.line(piece, {.colour = colour, .width = points ? 0.9 : 1.2, .dashed = series.dashed});
     // A line of one point would not be seen.
     if (points || (line && piece.size() == 1))
-      for (const Point& p : piece) canvas.disc(p, 1.9, colour);
+      for (const Point& p : piece) canvas.disc(p, point_radius, colour);
+    if (series.mark == Mark::rings)
+      for (const Point& p : piece) canvas.ring(p, point_radius, {.colour = colour, .width = 0.8});
   }
 }
 
@@ -276,12 +282,14 @@ void PlotPanel::draw_legend(Canvas& canvas) const {
       const Box sample{entry.at.x + 3, entry.at.y - 4, legend_sample - 6, 8};
       canvas.rectangle(sample, colour, 0.5);
       canvas.frame(sample, {.colour = colour, .width = 0.6});
-    } else if (series.mark != Mark::points) {
+    } else if (!stands_alone(series.mark)) {
       canvas.line(std::array<Point, 2>{entry.at, end},
                   {.colour = colour, .width = 1.2, .dashed = series.dashed});
     }
+    const Point middle{entry.at.x + 0.5 * legend_sample, entry.at.y};
     if (series.mark == Mark::points || series.mark == Mark::linked_points)
-      canvas.disc({entry.at.x + 0.5 * legend_sample, entry.at.y}, 1.9, colour);
+      canvas.disc(middle, point_radius, colour);
+    if (series.mark == Mark::rings) canvas.ring(middle, point_radius, {.colour = colour, .width = 0.8});
     canvas.text({end.x + legend_gap, end.y + 3.1}, series.name, legend_style);
   }
 }

@@ -146,7 +146,7 @@ Plot breakup_plot(const SweepView& view, const std::string& title, const std::ve
     const auto& [name, members] = groups[n];
     Series broke = view.curve(name.empty() ? "runs" : name, members, "breakup_tu", to_seconds(1));
     broke.colour = int(n);
-    Series whole{.name = broke.name + ": none", .mark = Mark::points, .colour = int(n + 4)};
+    Series whole{.name = broke.name + ": none", .mark = Mark::rings, .colour = int(n)};
     for (const std::size_t row : members) {
       if (view.failed(row) || std::isfinite(view.number(row, "breakup_tu"))) continue;
       whole.x.push_back(view.value(row, *view.layout().x).get<double>());
@@ -263,8 +263,8 @@ std::vector<NamedPlot> sweep_plots(const SweepTable& table) {
     const std::string title = start_name(table.plan, view.layout(), groups[n].first);
     plots.push_back(
         {groups.size() > 1 ? fmt::format("breakup_{}", n) : "breakup",
-         fmt::format("First break-up{}. A run that did not break up is shown where it died, or at "
-                     "its end.",
+         fmt::format("First break-up{}. A ring is the end or the death of a run that did not break "
+                     "up until then.",
                      title.empty() ? "" : ", " + title),
          breakup_plot(view, title.empty() ? "first break-up" : title, groups[n].second)});
   }

@@ -107,7 +107,7 @@ struct Times {
 
   explicit Times(const std::string& kind, int colour)
       : broke{.name = kind, .mark = Mark::linked_points, .colour = colour},
-        whole{.name = kind + ": none", .mark = Mark::points, .colour = colour + 4} {}
+        whole{.name = kind + ": none", .mark = Mark::rings, .colour = colour} {}
   void add(double mu1, const Outcome& outcome) {
     broke.x.push_back(mu1);
     broke.y.push_back(to_seconds(outcome.breakup));

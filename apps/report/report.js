@@ -11,8 +11,10 @@
 
   const axisText = (axis) => (axis.unit ? `${axis.label} (${axis.unit})` : axis.label);
 
+  const standsAlone = (s) => s.mark === "points" || s.mark === "rings";
+
   // uPlot reads a series from left to right; a path that turns back stays a picture.
-  const readable = (plot) => plot.series.every((s) => s.mark === "points" ||
+  const readable = (plot) => plot.series.every((s) => standsAlone(s) ||
     s.x.every((x, n) => x !== null && (n === 0 || x >= s.x[n - 1])));
 
   const sorted = (s) => {
@@ -93,10 +95,11 @@
           // Black is the ink of the page.
           stroke: s.colour === "#000000" ? ink : s.colour,
           fill: s.mark === "bars" ? s.colour + "80" : undefined,
-          width: s.mark === "points" ? 0 : 1.5,
+          width: standsAlone(s) ? 0 : 1.5,
           dash: s.dashed ? [6, 4] : undefined,
-          paths: s.mark === "points" ? () => null : paths[s.mark],
-          points: { show: s.mark.endsWith("points"), size: 5, fill: s.colour === "#000000" ? ink : s.colour },
+          paths: standsAlone(s) ? () => null : paths[s.mark],
+          points: s.mark === "rings" ? { show: true, size: 6, width: 1, fill: "transparent" } :
+            { show: s.mark.endsWith("points"), size: 5, fill: s.colour === "#000000" ? ink : s.colour },
           spanGaps: false,
           value: (u, v) => (v === null || v === undefined ? "–" : v.toPrecision(4)),
         }))],

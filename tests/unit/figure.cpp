@@ -109,6 +109,27 @@ TEST(Figure, APointIsWhereItBelongs) {
   EXPECT_NEAR(point.y, low.y + 0.75 * (high.y - low.y), 0.6);
 }
 
+TEST(Figure, ARingIsOpenWhereAPointIsNot) {
+  const auto drawn = [](Mark mark) {
+    const Plot plot{.title = "",
+                    .x = {"time", "s", 0, 2},
+                    .y = {"V", "", 0, 2},
+                    .series = {{.name = "", .x = {1}, .y = {1}, .mark = mark, .colour = 0}}};
+    return test::decode_png(figure_png({.panels = {plot}}));
+  };
+  const Picture point = drawn(Mark::points), ring = drawn(Mark::rings);
+  const Point middle = middle_of(point, palette[0]);
+  const int x = int(middle.x), y = int(middle.y);
+  EXPECT_EQ(point.at(x, y).red, palette[0].red);
+  EXPECT_EQ(ring.at(x, y).red, 255);
+  // Along each way out of it there is its line.
+  for (const auto& [right, up] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    int darkest = 255;
+    for (int n = 1; n < 8; ++n) darkest = std::min<int>(darkest, ring.at(x + n * right, y + n * up).red);
+    EXPECT_LT(darkest, 200);
+  }
+}
+
 TEST(Figure, EqualScalesMakeACircleOfACircle) {
   Plot plot{.title = "", .x = {"X₁", "mm"}, .y = {"X₂", "mm"}, .series = {}, .equal_scales = true};
   const double x[] = {-3, 3, 0, 0}, y[] = {0, 0, -1, 1};
