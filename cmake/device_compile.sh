@@ -20,8 +20,9 @@ find_cuda() {
   compiler=$(PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin command -v nvcc) ||
     { echo "skipped: no nvcc on PATH or in /usr/local/cuda"; exit 77; }
   defines=(KOKKOS_ENABLE_CUDA KOKKOS_ENABLE_CUDA_LAMBDA KOKKOS_ARCH_HOPPER KOKKOS_ARCH_HOPPER90 'KOKKOS_ARCH_NVIDIA_GPU 90')
-  # A host function called from a kernel may be a mere warning to nvcc. FMT: see Targets.cmake.
-  flags=(-x cu -arch=sm_90 --extended-lambda --expt-relaxed-constexpr -Xptxas -v -Werror cross-execution-space-call
+  # A host function called from a kernel may be a mere warning to nvcc. FMT: see Targets.cmake. -cubin: without the
+  # host's half of the object, which the host's own compiler makes anyway: a third of the time.
+  flags=(-x cu -cubin -arch=sm_90 --extended-lambda --expt-relaxed-constexpr -Xptxas -v -Werror cross-execution-space-call
     -DFMT_USE_CONSTEXPR=1)
 }
 
@@ -32,7 +33,7 @@ find_hip() {
   [ -f "$rocm/include/hip/hip_runtime.h" ] && [ -n "$bitcode" ] ||
     { echo "skipped: no HIP headers and device libraries in $rocm (ROCM_PATH names another place)"; exit 77; }
   defines=(KOKKOS_ENABLE_HIP 'KOKKOS_ARCH_AMD_GPU "gfx90a"' KOKKOS_ARCH_AMD_GFX90A)
-  flags=(-x hip --offload-arch=gfx90a --rocm-path="$rocm" --rocm-device-lib-path="$bitcode" --cuda-device-only
+  flags=(-x hip -c --offload-arch=gfx90a --rocm-path="$rocm" --rocm-device-lib-path="$bitcode" --cuda-device-only
     --no-gpu-bundle-output -Rpass-analysis=kernel-resource-usage)
 }
 
@@ -65,7 +66,7 @@ is_fresh() {
 compile() {
   local source=$1 object=$2
   "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" \
-    -MD -MF "$object.d" -c "$source" -o "$object.new" >"$object.log" 2>&1 || return 1
+    -MD -MF "$object.d" "$source" -o "$object.new" >"$object.log" 2>&1 || return 1
   mv "$object.new" "$object"
 }
 
