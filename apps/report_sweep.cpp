@@ -177,7 +177,7 @@ std::vector<NamedPlot> observable_plots(const SweepView& view) {
                          Shown{"tips_mean", "number of tips", "", 1},
                          Shown{"core_radius", "radius of the core", "length units", 1},
                          Shown{"conduction_velocity_median", "conduction velocity", "length units/t.u.", 1},
-                         Shown{"area_min", "smallest area of the sheet", "of the rest state", 1},
+                         Shown{"area_min", "smallest area", "of the rest state", 1},
                          Shown{"shortening_max", "largest shortening", "%", 100}};
   std::vector<std::size_t> others = view.layout().plots;
   if (view.layout().colour) others.push_back(*view.layout().colour);
