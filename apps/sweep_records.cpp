@@ -176,7 +176,7 @@ namespace {
 
 // Somebody who only asks for the owner has it for an instant.
 bool locks(int file) {
-  for (int tries = 0; tries < 5; ++tries) {
+  for (int tries = 0; tries < 20; ++tries) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

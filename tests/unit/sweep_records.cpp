@@ -1,11 +1,15 @@
 // Records of a sweep: what is read back, and what happens to what is damaged.
 #include "apps/sweep_records.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "apps/sweep_file.hpp"
 #include "apps/sweep_slurm.hpp"
@@ -153,6 +157,20 @@ TEST(ShardLock, TellsItsOwnerAndEndsWithIt) {
     }
   }
   EXPECT_EQ(ShardLock::owner_of(path), "");
+}
+
+// As ShardLock::owner_of() does, in another process.
+TEST(ShardLock, WaitsForOneWhoOnlyAsks) {
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "shard.lock";
+  { const ShardLock made(path); }
+  const int asking = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(asking, LOCK_SH | LOCK_NB), 0);
+  const std::jthread ends([asking] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(15));
+    close(asking);
+  });
+  EXPECT_NO_THROW(ShardLock{path});
 }
 
 TEST(Shard, PartsHaveEveryRunOnce) {
