@@ -207,8 +207,10 @@ TEST_F(SweepFaults, ASecondInterruptEndsAtOnce) {
 
 TEST_F(SweepFaults, ASecondProcessOnTheShardIsRefused) {
   Process first(arguments(path("shared"), {"--quiet"}), folder_ / "errors");
-  ASSERT_TRUE(Process::waits_until_there(folder_ / "shared/locks/shard_1_of_1.lock"));
+  ASSERT_TRUE(Process::waits_until_there(folder_ / "shared/records/shard_1_of_1.jsonl"));
+  first.send(SIGSTOP);  // the second waits a little, and must not see the end of the first
   const Outcome second = sweep("shared");
+  first.send(SIGCONT);
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.errors, AllOf(HasSubstr("shard_1_of_1"), HasSubstr(fmt::format("{}", first.id()))));
   EXPECT_EQ(first.wait(), 0) << first.errors();
