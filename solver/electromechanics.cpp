@@ -15,6 +15,7 @@
 #include "kernels/transfer/tension_to_gauss.hpp"
 #include "solver/denormals.hpp"
 #include "solver/error.hpp"
+#include "solver/mirror.hpp"
 #include "solver/rhythm.hpp"
 #include "solver/state_fault.hpp"
 
@@ -64,15 +65,6 @@ auto first_rows(const Kokkos::View<DataType, Traits...>& view, std::size_t rows)
     return Kokkos::subview(view, range);
   else
     return Kokkos::subview(view, range, Kokkos::ALL);
-}
-
-// What the space has made of it, and of nothing that others have at work.
-template <class ExecutionSpace, class View>
-auto mirror_of(const ExecutionSpace& space, const View& view) {
-  auto host = Kokkos::create_mirror_view(Kokkos::WithoutInitializing, view);
-  Kokkos::deep_copy(space, host, view);
-  space.fence("myowave::solver::mirror_of");
-  return host;
 }
 
 template <class ExecutionSpace, class View>

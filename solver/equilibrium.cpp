@@ -11,6 +11,7 @@
 #include "solver/equilibrium_failure.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh.hpp"
+#include "solver/mirror.hpp"
 #include "solver/newton.hpp"
 #include "solver/rest_state.hpp"
 #include "solver/sparse_system.hpp"
@@ -130,7 +131,7 @@ struct Equilibrium<ExecutionSpace>::Impl {
       Kokkos::deep_copy(space, start, nodes);
       return;
     }
-    const auto Ta_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, Ta);
+    const auto Ta_host = mirror_of(space, Ta);
     double sum = 0;
     for (int e = 0; e < grid.elements(); ++e) {
       for (int q = 0; q < elastic::gauss_points; ++q) sum += Ta_host(e, q);
@@ -185,12 +186,8 @@ struct Equilibrium<ExecutionSpace>::Impl {
   void turn_upright(const ExecutionSpace& space) {
     if (settings.edges == Edges::fixed) return;
     const int middle = middle_node(grid);
-    const auto pins = Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL);
-    const auto pins_host = Kokkos::create_mirror_view(pins);
-    // create_mirror_view_and_copy() would wait for the kernels of all instances.
-    Kokkos::deep_copy(space, pins_host, pins);
-    space.fence("myowave::elastic::pins");
-    if (pins_host(1, 0) >= pins_host(0, 0)) return;
+    const auto pins = mirror_of(space, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
+    if (pins(1, 0) >= pins(0, 0)) return;
     elastic::turn_around(space, middle, current);
     start_has_factor = false;
   }
