@@ -14,13 +14,21 @@ constexpr double tallest = 1.2;  // the same, of equal scales
 constexpr double tick_length = 3.5;
 constexpr double margin_of_data = 0.04;  // of the range, so that data do not lie on the axes
 constexpr double legend_line = 13, legend_sample = 18, legend_gap = 5;
-constexpr double point_radius = 1.9;
 constexpr Colour ink{30, 30, 30}, grey{150, 150, 150};
 constexpr Pen axis_pen{ink, 0.7};
 constexpr TextStyle number_style{.size = 8.5}, label_style{.size = 9.5}, legend_style{.size = 8.5};
 
 // No line goes from one to the next.
 bool stands_alone(Mark mark) { return mark == Mark::points || mark == Mark::rings; }
+bool has_points(Mark mark) { return stands_alone(mark) || mark == Mark::linked_points; }
+
+void draw_point(Canvas& canvas, Mark mark, Point at, Colour colour) {
+  constexpr double radius = 1.9;
+  if (mark == Mark::rings)
+    canvas.ring(at, radius, {.colour = colour, .width = 0.8});
+  else
+    canvas.disc(at, radius, colour);
+}
 
 // Curves over time go from one end of the axis to the other.
 bool fills_its_width(const Plot& plot) {
@@ -252,7 +260,7 @@ void PlotPanel::draw_marks(Canvas& canvas, std::size_t n) const {
     }
   }
   const bool line = !stands_alone(series.mark) && series.mark != Mark::bars;
-  const bool points = series.mark == Mark::points || series.mark == Mark::linked_points;
+  const bool points = has_points(series.mark);
   for (std::size_t k = 0; k < std::min(series.error.size(), series.y.size()); ++k) {
     if (!std::isfinite(series.y[k]) || !(series.error[k] > 0)) continue;
     const Point low = to_point(series.x[k], series.y[k] - series.error[k]);
@@ -267,9 +275,7 @@ void PlotPanel::draw_marks(Canvas& canvas, std::size_t n) const {
     if (line) canvas.line(piece, {.colour = colour, .width = points ? 0.9 : 1.2, .dashed = series.dashed});
     // A line of one point would not be seen.
     if (points || (line && piece.size() == 1))
-      for (const Point& p : piece) canvas.disc(p, point_radius, colour);
-    if (series.mark == Mark::rings)
-      for (const Point& p : piece) canvas.ring(p, point_radius, {.colour = colour, .width = 0.8});
+      for (const Point& p : piece) draw_point(canvas, series.mark, p, colour);
   }
 }
 
@@ -286,10 +292,8 @@ void PlotPanel::draw_legend(Canvas& canvas) const {
       canvas.line(std::array<Point, 2>{entry.at, end},
                   {.colour = colour, .width = 1.2, .dashed = series.dashed});
     }
-    const Point middle{entry.at.x + 0.5 * legend_sample, entry.at.y};
-    if (series.mark == Mark::points || series.mark == Mark::linked_points)
-      canvas.disc(middle, point_radius, colour);
-    if (series.mark == Mark::rings) canvas.ring(middle, point_radius, {.colour = colour, .width = 0.8});
+    if (has_points(series.mark))
+      draw_point(canvas, series.mark, {entry.at.x + 0.5 * legend_sample, entry.at.y}, colour);
     canvas.text({end.x + legend_gap, end.y + 3.1}, series.name, legend_style);
   }
 }
