@@ -79,6 +79,7 @@ class SceneReader {
     check_time();
     check_tension("tension", scene_.tension);
     check_mechanics();
+    check_scheme();
     check_initial();
     check_preconditions();
     check_stimuli();
@@ -462,6 +463,15 @@ class SceneReader {
       if (reason)
         conflict({"mechanics.p", "mechanics.load", "mechanics.c2", "mechanics.c1", "mechanics"}, *reason);
     }
+  }
+
+  void check_scheme() {
+    if (scene_.scheme == solver::Scheme::split && scene_.mechanics &&
+        scene_.metric == solver::MetricForm::expanded && fine({"accuracy.scheme", "feedback.metric"}))
+      conflict(
+          {"accuracy.scheme", "feedback.metric"},
+          "accuracy.scheme = \"split\" has no feedback.metric = \"expanded\"; set the first to \"euler\" "
+          "or the second to \"conservative\"");
   }
 
   void check_divides(std::string_view side, std::int64_t nodes, std::int64_t cells) {

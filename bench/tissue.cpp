@@ -19,13 +19,22 @@
 namespace myowave::bench {
 namespace {
 
-enum class Form { identity, conservative, conservative_loaded, expanded };
+enum class Form { identity, conservative, conservative_loaded, expanded, identity_split, conservative_split };
+
+template <Form form>
+inline constexpr bool is_split = form == Form::identity_split || form == Form::conservative_split;
+template <Form form>
+using SchemeOf = std::conditional_t<is_split<form>, tissue::SplitStep, tissue::ForwardEuler>;
+template <Form form, class Real>
+using ModelOf = solver::Model<Real, SchemeOf<form>>;
 
 constexpr const char* name_of(Form form) {
-  return form == Form::identity       ? "identity"
-         : form == Form::conservative ? "conservative"
-         : form == Form::expanded     ? "expanded"
-                                      : "conservative_loaded";
+  return form == Form::identity             ? "identity"
+         : form == Form::conservative       ? "conservative"
+         : form == Form::expanded           ? "expanded"
+         : form == Form::identity_split     ? "identity_split"
+         : form == Form::conservative_split ? "conservative_split"
+                                            : "conservative_loaded";
 }
 
 template <class Real>
@@ -40,7 +49,9 @@ constexpr Traffic tiled_traffic_of(Form form, double depth) {
   return form == Form::identity ? tiled_traffic<Real>(0, identity_flops, depth)
          : form == Form::conservative
              ? tiled_traffic<Real>(0, conservative_flops + metric_from_nodes_flops / depth, depth)
-             : tiled_traffic<Real>(4, conservative_flops, depth);
+         : form == Form::identity_split     ? tiled_traffic<Real>(0, identity_split_flops, depth)
+         : form == Form::conservative_split ? tiled_traffic<Real>(5, conservative_split_flops, depth)
+                                            : tiled_traffic<Real>(4, conservative_flops, depth);
 }
 
 template <class Real>
@@ -67,6 +78,20 @@ Diffusion<Real, MemorySpace> deformed(int n, int members) {
   return {grid, metric};
 }
 
+// The default stencil's, and those of nine points, with the parameters that `deformed` asks for.
+template <class Real, class Space>
+using FivePointDiffusion = tissue::ConservativeDiffusion<Real, Space>;
+template <class Real, class Space>
+using FivePointMetric = tissue::ConservativeMetric<Real, Space>;
+template <class Space, class Real>
+using FivePointTransfer = transfer::ConservativeTransfer<Space, Real>;
+template <class Real, class Space>
+using NinePointDiffusion = tissue::ConservativeDiffusion<Real, Space, tissue::Stencil::nine_point>;
+template <class Real, class Space>
+using NinePointMetric = tissue::ConservativeMetric<Real, Space, tissue::Stencil::nine_point>;
+template <class Space, class Real>
+using NinePointTransfer = transfer::ConservativeTransfer<Space, Real, tissue::Stencil::nine_point>;
+
 template <Form form, class Real>
 auto make_diffusion(int n, int members) {
   if constexpr (form == Form::identity)
@@ -74,12 +99,15 @@ auto make_diffusion(int n, int members) {
   else if constexpr (form == Form::conservative)
     return transfer::DeformedDiffusion<Real, MemorySpace>{
         square_grid(n), square_elements(n), cells_per_element, to_nodes(deformed_nodes(square_elements(n)))};
+  else if constexpr (form == Form::identity_split)
+    return tissue::IdentityDiffusion<Real, MemorySpace, tissue::Stencil::nine_point>(square_grid(n));
+  else if constexpr (form == Form::conservative_split)
+    return deformed<NinePointDiffusion, NinePointMetric, NinePointTransfer, Real>(n, members);
   else if constexpr (form == Form::expanded)
     return deformed<tissue::ExpandedDiffusion, tissue::ExpandedMetric, transfer::ExpandedTransfer, Real>(
         n, members);
   else
-    return deformed<tissue::ConservativeDiffusion, tissue::ConservativeMetric, transfer::ConservativeTransfer,
-                    Real>(n, members);
+    return deformed<FivePointDiffusion, FivePointMetric, FivePointTransfer, Real>(n, members);
 }
 
 // The product's step.
@@ -90,7 +118,7 @@ class Step {
 
   Step(int n, int members)
       : diffusion_(make_diffusion<form, Real>(n, members)),
-        model_(solver::make_model<Real>({}, {})),
+        model_(solver::in_scheme<SchemeOf<form>>(solver::make_model<Real>({}, {}))),
         V_("myowave::bench::V", members, n, n),
         V_next_("myowave::bench::V_next", members, n, n),
         r_("myowave::bench::r", members, n, n),
@@ -116,7 +144,7 @@ class Step {
 
  private:
   decltype(make_diffusion<form, Real>(2, 1)) diffusion_;
-  solver::Model<Real> model_;
+  ModelOf<form, Real> model_;
   View V_, V_next_, r_, Ta_;
 };
 
@@ -129,7 +157,8 @@ class TiledSteps {
   using View = EnsembleField<Real, MemorySpace>;
 
   TiledSteps(int n, int members)
-      : diffusion_(make_diffusion<form, Real>(n, members)), model_(solver::make_model<Real>({}, {})) {
+      : diffusion_(make_diffusion<form, Real>(n, members)),
+        model_(solver::in_scheme<SchemeOf<form>>(solver::make_model<Real>({}, {}))) {
     for (auto* state : {&old_, &next_})
       *state = {View("myowave::bench::V", members, n, n), View("myowave::bench::r", members, n, n),
                 View("myowave::bench::Ta", members, n, n)};
@@ -141,7 +170,7 @@ class TiledSteps {
   // Of a launch, on the mean.
   double depth() const {
     using Tiled =
-        tissue::TiledStep<ExecutionSpace, decltype(diffusion_), solver::Model<Real>, tissue::NoRecorder>;
+        tissue::TiledStep<ExecutionSpace, decltype(diffusion_), ModelOf<form, Real>, tissue::NoRecorder>;
     return double(steps_between_solves) / tissue::tiles_of(steps_between_solves, Tiled::largest_depth());
   }
 
@@ -160,7 +189,7 @@ class TiledSteps {
 
  private:
   decltype(make_diffusion<form, Real>(2, 1)) diffusion_;
-  solver::Model<Real> model_;
+  ModelOf<form, Real> model_;
   tissue::ExcitationFields<View> old_, next_;
 };
 
@@ -322,7 +351,7 @@ void register_rows(const Suite& suite) {
     return fmt::format("{}/{}/{}/{}", kind, name_of(form), precision_name<Real>, n);
   };
   constexpr bool has_yardstick = form == Form::identity || form == Form::conservative_loaded;
-  constexpr bool single = form != Form::conservative, tiled = form != Form::expanded;
+  constexpr bool single = form != Form::conservative && !is_split<form>, tiled = form != Form::expanded;
   const auto sizes = form == Form::identity ? suite.sizes({121, 251, 512, 1024, 2048, 4096}, small_n)
                                             : suite.sizes({121, 251, 511, 1021, 2041, 4091}, small_n);
   for (const int n : sizes) {
@@ -351,6 +380,8 @@ void register_forms(const Suite& suite) {
   register_rows<Form::conservative, Real>(suite);
   register_rows<Form::conservative_loaded, Real>(suite);
   register_rows<Form::expanded, Real>(suite);
+  register_rows<Form::identity_split, Real>(suite);
+  register_rows<Form::conservative_split, Real>(suite);
 }
 
 }  // namespace

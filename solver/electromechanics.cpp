@@ -117,13 +117,14 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const Execution& execut
       schedule_(scene.stimuli, scene.grid, scene.time.dt),
       model_(make_model<Real>(scene.excitation, scene.tension)),
       form_(select_form<ExecutionSpace, Real>(metric_form(scene), grid_, make_elements(scene),
-                                              scene.mechanics ? scene.mechanics->cells_per_element : 1)),
+                                              scene.mechanics ? scene.mechanics->cells_per_element : 1,
+                                              scene.scheme)),
       state_{View("myowave::solver::V", 1, grid_.rows, grid_.columns),
              View("myowave::solver::r", 1, grid_.rows, grid_.columns),
              {}},
       spare_{View("myowave::solver::V_next", 1, grid_.rows, grid_.columns), {}, {}},
       clean_(clean_range(scene, state)),
-      stable_dt_(largest_stable_dt(scene, undeformed_trace)),
+      stable_dt_(largest_stable_dt(scene, undeformed_stiffness(scene))),
       active_(grid_, scene.quiescent, scene.tension.k_Ta),
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
@@ -267,7 +268,7 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
         }
       },
       form_);
-  stable_dt_ = largest_stable_dt(scene_, std::max(undeformed_trace, bounds.max_trace_inverse_C));
+  stable_dt_ = largest_stable_dt(scene_, std::max(undeformed_stiffness(scene_), bounds.max_stiffness));
   if (scene_.on_unstable == OnUnstable::stop && scene_.time.dt > stable_dt_)
     throw NumericalFailure(fmt::format(
         "t = {:.6g} t.u.: dt = {} is past the stability bound {:.6g}: the sheet is so contracted that the "
@@ -342,15 +343,16 @@ template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, double dt) {
   const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns,
                                                    probe_rows_};
-  const auto take = [&](const auto& diffusion) {
-    with_model(scene_, model_, [&](const auto& model) {
-      tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record, &active_);
-    });
-  };
   std::visit(
       [&](const auto& form) {
-        if constexpr (std::decay_t<decltype(form.diffusion)>::mirrored_edges)
-          with_fastest_metric<ExecutionSpace>(form, nodes_.device, take);
+        using Form = std::decay_t<decltype(form)>;
+        if constexpr (decltype(Form::diffusion)::mirrored_edges)
+          with_fastest_metric<ExecutionSpace>(form, nodes_.device, [&](const auto& diffusion) {
+            with_model<typename Form::Scheme>(scene_, model_, [&](const auto& model) {
+              tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record,
+                                  &active_);
+            });
+          });
       },
       form_);
 }
@@ -362,7 +364,7 @@ void Electromechanics<ExecutionSpace, Real>::single_step(int n,
   observe::record_probes(space_, state_.V, probe_nodes_, probe_record_.device, n);
   std::visit(
       [&](const auto& form) {
-        with_model(scene_, model_, [&](const auto& model) {
+        with_model<typename std::decay_t<decltype(form)>::Scheme>(scene_, model_, [&](const auto& model) {
           tissue::monodomain_step(space_, form.diffusion, model, dt, state_.V, state_.r, state_.Ta, spare_.V);
         });
       },

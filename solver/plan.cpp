@@ -51,23 +51,24 @@ struct Sizes {
 // Steps tile by tile have V, r and Ta old and new; single ones update r and Ta in place.
 bool steps_in_tiles(MetricForm form) {
   using Forms = ModelForms<Space, double>;
-  return form == MetricForm::expanded ? decltype(Forms::Expanded::diffusion)::mirrored_edges
-                                      : decltype(Forms::Identity::diffusion)::mirrored_edges &&
-                                            decltype(Forms::Conservative::diffusion)::mirrored_edges;
+  return form == MetricForm::expanded
+             ? decltype(Forms::Expanded::diffusion)::mirrored_edges
+             : decltype(Forms::template Identity<tissue::ForwardEuler>::diffusion)::mirrored_edges &&
+                   decltype(Forms::Conservative::diffusion)::mirrored_edges;
 }
 
 PlannedPart excitation(const Scene& scene, const Sizes& sizes) {
   const bool tiles = steps_in_tiles(metric_form(scene));
-  return {
-      .part = "excitation",
-      .active = true,
-      .what = fmt::format("Aliev-Panfilov, V and r on {} x {} nodes, {}, explicit Euler, dt = {} t.u., {}",
-                          scene.grid.rows, scene.grid.columns,
-                          scene.precision == Precision::float32 ? "float32" : "float64", scene.time.dt,
-                          tiles ? "several steps a launch, tile by tile" : "one step a launch"),
-      .why = "always",
-      .view_bytes =
-          sizes.nodes * (tiles ? 4 : 3) * sizes.real + scene.stimuli.size() * sizeof(tissue::ActiveStimulus)};
+  return {.part = "excitation",
+          .active = true,
+          .what = fmt::format(
+              "Aliev-Panfilov, V and r on {} x {} nodes, {}, {}, dt = {} t.u., {}", scene.grid.rows,
+              scene.grid.columns, scene.precision == Precision::float32 ? "float32" : "float64",
+              scene.scheme == Scheme::split ? "diffusion and reaction split, second order" : "explicit Euler",
+              scene.time.dt, tiles ? "several steps a launch, tile by tile" : "one step a launch"),
+          .why = "always",
+          .view_bytes = sizes.nodes * (tiles ? 4 : 3) * sizes.real +
+                        scene.stimuli.size() * sizeof(tissue::ActiveStimulus)};
 }
 
 PlannedPart active_tension(const Scene& scene, const Sizes& sizes) {
@@ -87,16 +88,18 @@ PlannedPart active_tension(const Scene& scene, const Sizes& sizes) {
 
 PlannedPart diffusion(const Scene& scene, const Sizes& sizes) {
   PlannedPart part{.part = "diffusion", .active = true, .why = "always"};
+  const bool split = scene.scheme == Scheme::split;
+  const int weights = split ? 5 : 4;
   switch (metric_form(scene)) {
     case MetricForm::none:
-      part.what = "5-point stencil of the undeformed sheet";
+      part.what = fmt::format("{}-point stencil of the undeformed sheet", split ? 9 : 5);
       break;
     case MetricForm::conservative:
       part.what = fmt::format("conservative form on the deformed metric, {}",
-                              takes_metric_from_nodes<Space>(scene.grid.rows, scene.grid.columns)
+                              !split && takes_metric_from_nodes<Space>(scene.grid.rows, scene.grid.columns)
                                   ? "weights from the element nodes, or 4 a node in single steps"
-                                  : "4 weights a node");
-      part.view_bytes = 4 * sizes.padded_nodes * sizes.real;
+                                  : fmt::format("{} weights a node", weights));
+      part.view_bytes = weights * sizes.padded_nodes * sizes.real;
       break;
     case MetricForm::expanded:
       part.what = "expanded form (Eq 24) on the deformed metric, 5 coefficients a node";

@@ -55,6 +55,8 @@ enum class Load { follower, dead };
 enum class Edges { load, fixed };
 enum class MetricForm { none, conservative, expanded };
 enum class Precision { float64, float32 };
+// Of the excitation, kernels/tissue/row_update.hpp.
+enum class Scheme { euler, split };
 // What a run does where its steps are unstable: end, or go back and take smaller ones.
 enum class OnUnstable { stop, substep };
 
@@ -133,6 +135,7 @@ struct Scene {
   InitialSettings initial;
   std::vector<Stimulus> stimuli;
   Precision precision = Precision::float64;
+  Scheme scheme = Scheme::euler;
   OnUnstable on_unstable = OnUnstable::stop;
   double quiescent = 0;  // |V|, |r|, |Ta| / k_Ta at rest; 0: exactly
   OutputSettings output;

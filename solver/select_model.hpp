@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <variant>
 
 #include "kernels/cell/active_tension.hpp"
@@ -15,41 +16,64 @@
 
 namespace myowave::solver {
 
-template <class Real>
-using Model = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::ActiveTension<Real>>;
+template <class Real, class Scheme = tissue::ForwardEuler>
+using Model = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::ActiveTension<Real>, Scheme>;
 
 // Where nothing asks for Ta.
-template <class Real>
-using ModelWithoutTension = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::NoTension>;
+template <class Real, class Scheme = tissue::ForwardEuler>
+using ModelWithoutTension = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::NoTension, Scheme>;
 
-// One form of the diffusion term with what refreshes its metric.
+// The stencil whose error a scheme's takes away.
+template <class Scheme>
+inline constexpr tissue::Stencil stencil_of =
+    std::is_same_v<Scheme, tissue::SplitStep> ? tissue::Stencil::nine_point : tissue::Stencil::five_point;
 
+// One form of the diffusion term and the scheme that takes its steps, with what refreshes its metric.
 template <class ExecutionSpace, class Real>
 struct ModelForms {
   using Space = typename ExecutionSpace::memory_space;
+  template <class TimeScheme>
   struct Identity {
-    tissue::IdentityDiffusion<Real, Space> diffusion;
+    using Scheme = TimeScheme;
+    tissue::IdentityDiffusion<Real, Space, stencil_of<Scheme>> diffusion;
   };
   struct Conservative {
+    using Scheme = tissue::ForwardEuler;
     tissue::ConservativeDiffusion<Real, Space> diffusion;
     transfer::ConservativeTransfer<ExecutionSpace, Real> transfer;
     transfer::DeformedDiffusion<Real, Space> from_nodes;  // of large sheets; without the nodes
   };
+  struct ConservativeSplit {
+    using Scheme = tissue::SplitStep;
+    tissue::ConservativeDiffusion<Real, Space, stencil_of<Scheme>> diffusion;
+    transfer::ConservativeTransfer<ExecutionSpace, Real, stencil_of<Scheme>> transfer;
+  };
   struct Expanded {
+    using Scheme = tissue::ForwardEuler;
     tissue::ExpandedDiffusion<Real, Space> diffusion;
     transfer::ExpandedTransfer<ExecutionSpace, Real> transfer;
   };
-  using Any = std::variant<Identity, Conservative, Expanded>;
+  using Any = std::variant<Identity<tissue::ForwardEuler>, Identity<tissue::SplitStep>, Conservative,
+                           ConservativeSplit, Expanded>;
 };
 
 template <class ExecutionSpace, class Real>
 typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, const tissue::Grid& grid,
                                                            const elastic::ElementGrid& elements,
-                                                           int cells_per_element) {
+                                                           int cells_per_element,
+                                                           Scheme scheme = Scheme::euler) {
   using Forms = ModelForms<ExecutionSpace, Real>;
   using Space = typename Forms::Space;
+  const auto identity = [&]<class TimeScheme>(TimeScheme) {
+    return typename Forms::template Identity<TimeScheme>{
+        tissue::IdentityDiffusion<Real, Space, stencil_of<TimeScheme>>(grid)};
+  };
   switch (form) {
     case MetricForm::conservative:
+      if (scheme == Scheme::split)
+        return typename Forms::ConservativeSplit{
+            {grid, tissue::ConservativeMetric<Real, Space, stencil_of<tissue::SplitStep>>(1, grid)},
+            {grid, elements, cells_per_element}};
       return typename Forms::Conservative{{grid, tissue::ConservativeMetric<Real, Space>(1, grid)},
                                           {grid, elements, cells_per_element},
                                           {grid, elements, cells_per_element, {}}};
@@ -59,7 +83,8 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
     case MetricForm::none:
       break;
   }
-  return typename Forms::Identity{tissue::IdentityDiffusion<Real, Space>(grid)};
+  if (scheme == Scheme::split) return identity(tissue::SplitStep{});
+  return identity(tissue::ForwardEuler{});
 }
 
 // From so many nodes on, several steps in one launch are faster on a host with the metric from the element
@@ -92,13 +117,23 @@ Model<Real> make_model(const ExcitationSettings& e, const TensionSettings& t) {
           Real(1 / e.C_m)};
 }
 
-// action(model), with Ta or without.
-template <class Real, class Action>
+// The same that takes its steps by another scheme.
+template <class Scheme, class Real>
+Model<Real, Scheme> in_scheme(const Model<Real>& model) {
+  return {model.cell, model.tension, model.D, model.inverse_C_m};
+}
+template <class Scheme, class Real>
+ModelWithoutTension<Real, Scheme> without_tension(const Model<Real>& model) {
+  return {model.cell, {}, model.D, model.inverse_C_m};
+}
+
+// action(model), by a scheme, with Ta or without.
+template <class Scheme, class Real, class Action>
 void with_model(const Scene& scene, const Model<Real>& model, const Action& action) {
   if (has_tension(scene))
-    action(model);
+    action(in_scheme<Scheme>(model));
   else
-    action(ModelWithoutTension<Real>{model.cell, {}, model.D, model.inverse_C_m});
+    action(without_tension<Scheme>(model));
 }
 
 }  // namespace myowave::solver

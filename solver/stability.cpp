@@ -16,6 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // 1/t.u., the steepest fall of the reaction at its two stable states, V = 0 and 1 with r = 0.
 double reaction_rate(const ExcitationSettings& e) { return e.k * std::max(std::abs(e.a), std::abs(1 - e.a)); }
 
+// 1/t.u., the steepest rise of the reaction, at V = (1 + a) / 3 with r = 0.
+double growth_rate(const ExcitationSettings& e) { return e.k * (1 - e.a + e.a * e.a) / 3; }
+
 // The V beyond which -k V (V - a)(V - one) + push V + current points back to 0. From max(a, one) on it falls
 // below 0 once. For V < 0 the same of -V, with a and one = 1 negated.
 double turning_point(double k, double a, double one, double push, double current) {
@@ -44,13 +47,16 @@ std::string node_text(const InitialState& state, std::size_t node) {
 }
 
 void require_stable_dt(const Scene& scene, const char* where) {
-  const double bound = largest_stable_dt(scene, undeformed_trace);
+  const double bound = largest_stable_dt(scene, undeformed_stiffness(scene));
   if (scene.time.dt > bound)
     throw InputError(
         fmt::format("time.dt = {} is past the stability bound {:.6g} of the undeformed sheet{}, "
-                    "2 C_m / (8 D / dx^2 + k max(a, 1 - a)). Set time.dt to {:.3g} or less, or use a larger "
+                    "{}. Set time.dt to {:.3g} or less, or use a larger "
                     "grid.dx",
-                    scene.time.dt, bound, where, 0.99 * bound));
+                    scene.time.dt, bound, where,
+                    scene.scheme == Scheme::euler ? "2 C_m / (8 D / dx^2 + k max(a, 1 - a))"
+                                                  : "2 C_m / (16/3 D / dx^2 + k (1 - a + a^2) / 3)",
+                    0.99 * bound));
   const double eps = scene.excitation.eps;
   if (scene.time.dt * eps > 1)
     throw InputError(
@@ -75,10 +81,14 @@ void require_bearable_stimuli(const Scene& scene, const char* where) {
 
 }  // namespace
 
-double largest_stable_dt(const Scene& scene, double trace_inverse_C) {
+double undeformed_stiffness(const Scene& scene) { return scene.scheme == Scheme::euler ? 2 : 4.0 / 3; }
+
+double largest_stable_dt(const Scene& scene, double stiffness) {
   const auto& e = scene.excitation;
-  const double diffusion = 4 * e.D * trace_inverse_C / (scene.grid.dx * scene.grid.dx);
-  return 2 * e.C_m / (diffusion + reaction_rate(e));
+  const double diffusion = 4 * e.D * stiffness / (scene.grid.dx * scene.grid.dx);
+  const double reaction = reaction_rate(e);
+  if (scene.scheme == Scheme::euler) return 2 * e.C_m / (diffusion + reaction);
+  return 2 * e.C_m / std::max(diffusion + growth_rate(e), reaction);
 }
 
 int needed_substeps(double dt, double stable_dt) {

@@ -9,11 +9,15 @@
 
 namespace myowave::solver {
 
-inline constexpr double undeformed_trace = 2;  // tr C^-1 of F = I
+// The stiffness s of a cell (transfer::cell_stiffness) for F = I: 2, and 4 / 3 of the nine-point stencil.
+double undeformed_stiffness(const Scene&);
 
-// dt must not exceed this: min over FD cells of 2 C_m / (4 D tr C^-1 / dx^2 + k max(a, 1 - a)). Each
-// cell's energy is then bounded by its mass, so that no grid mode grows at V = 0 and V = 1, for any F.
-double largest_stable_dt(const Scene&, double trace_inverse_C);
+// dt must not exceed this, at the largest stiffness s of the FD cells. Each cell's energy is then bounded by
+// its mass, for any F.
+//   euler: 2 C_m / (4 D s / dx^2 + k max(a, 1 - a)): no grid mode grows at V = 0 and V = 1;
+//   split: 2 C_m / (4 D s / dx^2 + k (1 - a + a^2) / 3): what the reaction lets grow at most, the diffusion
+//          damps; and 2 C_m / (k max(a, 1 - a)), where the midpoint rule ends.
+double largest_stable_dt(const Scene&, double stiffness);
 
 // Into how many steps one of dt must be divided under that bound; 1 where it holds.
 int needed_substeps(double dt, double stable_dt);

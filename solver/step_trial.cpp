@@ -32,8 +32,11 @@ class Trial {
 
   explicit Trial(const StepTrial& trial)
       : grid_{trial.grid.rows, trial.grid.columns, trial.grid.dx},
-        form_(select_form<Space, Real>(trial.form, grid_, elements(trial), trial.cells_per_element)) {
+        form_(select_form<Space, Real>(trial.form, grid_, elements(trial), trial.cells_per_element,
+                                       trial.scheme)) {
     like_.metric = trial.form;
+    like_.scheme = trial.scheme;
+    bounds_.max_stiffness = undeformed_stiffness(like_);
     if (trial.form != MetricForm::none) like_.mechanics.emplace();
     const Nodes<Space::memory_space> nodes("myowave::solver::trial_nodes", trial.nodes.size() / 2);
     const auto host = Kokkos::create_mirror_view(nodes);
@@ -84,19 +87,16 @@ class Trial {
     return view;
   }
 
-  static ModelWithoutTension<Real> make_cell_model() {
-    const auto all = make_model<Real>({}, {});
-    return {all.cell, {}, all.D, all.inverse_C_m};
-  }
-
   void advance(double dt, int steps) {
     std::visit(
         [&](const auto& form) {
-          if constexpr (std::decay_t<decltype(form.diffusion)>::mirrored_edges) {
-            tissue::tiled_steps(space_, form.diffusion, model_, dt, steps, state_, spare_);
+          using Form = std::decay_t<decltype(form)>;
+          const auto model = without_tension<typename Form::Scheme>(model_);
+          if constexpr (decltype(Form::diffusion)::mirrored_edges) {
+            tissue::tiled_steps(space_, form.diffusion, model, dt, steps, state_, spare_);
           } else {
             for (int n = 0; n < steps; ++n) {
-              tissue::monodomain_step(space_, form.diffusion, model_, dt, state_.V, state_.r, state_.Ta,
+              tissue::monodomain_step(space_, form.diffusion, model, dt, state_.V, state_.r, state_.Ta,
                                       spare_.V);
               std::swap(state_.V, spare_.V);
             }
@@ -109,8 +109,7 @@ class Trial {
     const auto growing_noise = [&] {
       return std::visit(
           [&](const auto& form) {
-            using Rate =
-                tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, ModelWithoutTension<Real>>;
+            using Rate = tissue::MonodomainRate<std::decay_t<decltype(form.diffusion)>, Model<Real>>;
             const Rate rate{form.diffusion, model_, state_.V, state_.r, {}};
             return observe::growing_noise(space_, state_.V, rate, dt, largest_clean_noise);
           },
@@ -125,8 +124,8 @@ class Trial {
   tissue::Grid grid_;
   typename ModelForms<Space, Real>::Any form_;
   Scene like_;  // a scene with this diffusion
-  ModelWithoutTension<Real> model_ = make_cell_model();
-  transfer::DeformationBounds bounds_{2, 1};
+  Model<Real> model_ = make_model<Real>({}, {});
+  transfer::DeformationBounds bounds_{.max_trace_inverse_C = 2, .max_stiffness = 2, .min_J = 1};
   tissue::ExcitationFields<View> state_, spare_;
 };
 
@@ -157,11 +156,14 @@ StepOutcome StepReport::outcome() const {
 StabilityBounds stability_bounds(const StepTrial& trial) {
   Scene scene;
   scene.grid = trial.grid;
-  const double trace =
-      with_precision(trial, [](const auto& sheet) { return sheet.bounds().max_trace_inverse_C; });
-  const double excited = largest_stable_dt(scene, trace);
+  scene.scheme = trial.scheme;
+  const auto bounds = with_precision(trial, [](const auto& sheet) { return sheet.bounds(); });
+  const double excited = largest_stable_dt(scene, bounds.max_stiffness);
   const ExcitationSettings& e = scene.excitation;
-  return {trace, excited, 2 / (2 / excited - e.k * (1 - e.a) + e.k * e.a)};
+  const double at_rest = trial.scheme == Scheme::euler
+                             ? 2 / (2 / excited - e.k * (1 - e.a) + e.k * e.a)
+                             : 2 / (4 * bounds.max_stiffness / (trial.grid.dx * trial.grid.dx));
+  return {bounds.max_trace_inverse_C, excited, at_rest};
 }
 
 StepReport try_steps(const StepTrial& trial, double dt) {

@@ -12,6 +12,7 @@ struct StepTrial {
   GridSettings grid;
   MetricForm form = MetricForm::none;  // none: the rigid sheet
   Precision precision = Precision::float64;
+  Scheme scheme = Scheme::euler;
   int cells_per_element = 10;
   std::vector<double> nodes;  // (element rows + 1, element columns + 1, 2), length units; rigid: unused
   double front_width = 5;     // of the broken front, node spacings

@@ -17,9 +17,18 @@ struct ActiveTension {
   Real threshold = Real(0.05);
 
   // dTa/dt, kPa/t.u.
-  KOKKOS_FORCEINLINE_FUNCTION Real rate(Real V, Real Ta) const {
-    return (V < threshold ? eps_below : eps_above) * (k_Ta * V - Ta);
+  KOKKOS_FORCEINLINE_FUNCTION Real rate(Real V, Real Ta) const { return relaxation(V) * (k_Ta * V - Ta); }
+
+  // Ta after dt (t.u.) at constant V, kPa: the exponential to second order, which stays between Ta and k_Ta V
+  // for eps_T dt <= 2.
+  KOKKOS_FORCEINLINE_FUNCTION Real relaxed(Real V, Real Ta, Real dt) const {
+    const Real z = dt * relaxation(V);
+    return Ta + z * (Real(1) - Real(0.5) * z) * (k_Ta * V - Ta);
   }
+
+ private:
+  // eps_T(V), 1/t.u.
+  KOKKOS_FORCEINLINE_FUNCTION Real relaxation(Real V) const { return V < threshold ? eps_below : eps_above; }
 };
 
 // Where nothing asks for Ta.

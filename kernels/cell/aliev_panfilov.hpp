@@ -27,6 +27,13 @@ struct AlievPanfilov {
   KOKKOS_FORCEINLINE_FUNCTION Real recovery(Real V, Real r) const {
     return (eps + mu1 * r / (mu2 + V)) * (-r - k * V * (V - b - Real(1)));
   }
+
+  // r after dt (t.u.) at constant V, to second order: r + dt r_t + dt^2 / 2 r_tt.
+  KOKKOS_FORCEINLINE_FUNCTION Real recovered(Real V, Real r, Real dt) const {
+    const Real per_r = mu1 / (mu2 + V), rate = eps + per_r * r;
+    const Real distance = -r - k * V * (V - b - Real(1));
+    return r + dt * rate * distance * (Real(1) + Real(0.5) * dt * (per_r * distance - rate));
+  }
 };
 
 }  // namespace myowave::cell

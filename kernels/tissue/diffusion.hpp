@@ -28,13 +28,13 @@ KOKKOS_FORCEINLINE_FUNCTION auto rows_of(const View& V, const Grid& grid, int m,
       &V(m, mirrored(i - 1, grid.rows), origin), &V(m, i, origin), &V(m, mirrored(i + 1, grid.rows), origin)};
 }
 
-// F = I: the 5-point Laplacian with mirrored edges.
-template <class Real, class MemorySpace>
+// F = I: the Laplacian with mirrored edges.
+template <class Real, class MemorySpace, Stencil stencil = Stencil::five_point>
 struct IdentityDiffusion {
   using Scalar = Real;
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
-  static constexpr const char* name = "identity";
+  static constexpr const char* name = stencil == Stencil::nine_point ? "identity_nine_point" : "identity";
   static constexpr bool mirrored_edges = true;
 
   Grid grid;
@@ -47,7 +47,10 @@ struct IdentityDiffusion {
     StencilRows<Real> V;
     Real inverse_dx2;
     KOKKOS_FORCEINLINE_FUNCTION Real operator()(int west, int j, int east) const {
-      return inverse_dx2 * ((V.here[west] + V.here[east]) + (V.below[j] + V.above[j]) - Real(4) * V.here[j]);
+      const Real straight = (V.here[west] + V.here[east]) + (V.below[j] + V.above[j]);
+      if constexpr (stencil == Stencil::five_point) return inverse_dx2 * (straight - Real(4) * V.here[j]);
+      const Real oblique = (V.below[west] + V.above[east]) + (V.below[east] + V.above[west]);
+      return inverse_dx2 * Real(1.0 / 6) * ((Real(4) * straight + oblique) - Real(20) * V.here[j]);
     }
     KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const { prefetch_to_read(V.above + j); }
   };
@@ -79,16 +82,18 @@ struct IdentityDiffusion {
 
 // Weights of the edge network in a few neighbouring rows of a tile, in scratch rows of `pitch` entries. The
 // rows lie at constant distances, so that a loop over columns needs two addresses for all of them.
-template <class Real, int pitch>
+template <class Real, int pitch, Stencil stencil = Stencil::five_point>
 struct WeightRows {
   Real* begin;  // the tile's first column, aligned
   int slots;    // a power of two; row i lies at i modulo slots
 
-  static constexpr int rows(int slots) { return 4 * slots; }
-  KOKKOS_FORCEINLINE_FUNCTION Real* east(int i) const { return begin + (i & (slots - 1)) * 4 * pitch; }
+  static constexpr int kinds = stencil == Stencil::nine_point ? 5 : 4;
+  static constexpr int rows(int slots) { return kinds * slots; }
+  KOKKOS_FORCEINLINE_FUNCTION Real* east(int i) const { return begin + (i & (slots - 1)) * kinds * pitch; }
   KOKKOS_FORCEINLINE_FUNCTION Real* north(int i) const { return east(i) + pitch; }
   KOKKOS_FORCEINLINE_FUNCTION Real* diagonal(int i) const { return east(i) + 2 * pitch; }
   KOKKOS_FORCEINLINE_FUNCTION Real* inverse_mass(int i) const { return east(i) + 3 * pitch; }
+  KOKKOS_FORCEINLINE_FUNCTION Real* antidiagonal(int i) const { return east(i) + 4 * pitch; }
 
   struct OfRow {
     const Real* here;
@@ -98,6 +103,12 @@ struct WeightRows {
     KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return row_below[j + pitch]; }
     KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return here[j + 2 * pitch]; }
     KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return row_below[j + 2 * pitch]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal(int j) const {
+      return stencil == Stencil::nine_point ? here[j + 4 * pitch] : -diagonal(j);
+    }
+    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal_below(int j) const {
+      return stencil == Stencil::nine_point ? row_below[j + 4 * pitch] : -diagonal_below(j);
+    }
     KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return here[j + 3 * pitch]; }
   };
   KOKKOS_FORCEINLINE_FUNCTION OfRow of_row(int i) const { return {east(i), east(i - 1)}; }
@@ -106,21 +117,23 @@ struct WeightRows {
 // `conservative`: the gradient of the cell energies
 //   E = 1/4 { G11 [(V10-V00)^2 + (V11-V01)^2] + G22 [(V01-V00)^2 + (V11-V10)^2]
 //             + G12 [(V11-V00)^2 - (V10-V01)^2] },   G = sqrt C C^-1 at the cell centre,
-// (the product of mean slopes written as a difference of squares), which is a network of edges:
+// (the product of mean slopes written as a difference of squares), less twist_part(stencil), which is a
+// network of edges:
 //   V_t = sum_edges w (V_neighbour - V_i) / (M_i dx^2).
-template <class Real, class MemorySpace>
+template <class Real, class MemorySpace, Stencil stencil = Stencil::five_point>
 struct ConservativeDiffusion {
   using Scalar = Real;
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
-  static constexpr const char* name = "conservative";
+  static constexpr const char* name =
+      stencil == Stencil::nine_point ? "conservative_nine_point" : "conservative";
   static constexpr bool mirrored_edges = true;
 
   Grid grid;
-  ConservativeMetric<Real, MemorySpace> metric;
+  ConservativeMetric<Real, MemorySpace, stencil> metric;
 
   ConservativeDiffusion() = default;
-  ConservativeDiffusion(const Grid& g, const ConservativeMetric<Real, MemorySpace>& coefficients)
+  ConservativeDiffusion(const Grid& g, const ConservativeMetric<Real, MemorySpace, stencil>& coefficients)
       : grid(g), metric(coefficients) {}
 
   // The diffusion along a row from the weights of its edges.
@@ -133,8 +146,9 @@ struct ConservativeDiffusion {
       const Real V = here[j];
       const Real straight = w.east(j) * (here[east] - V) + w.east(j - 1) * (here[west] - V) +
                             w.north(j) * (above[j] - V) + w.north_below(j) * (below[j] - V);
-      const Real oblique = w.diagonal(j) * (above[east] - V) + w.diagonal_below(j - 1) * (below[west] - V) -
-                           w.diagonal(j - 1) * (above[west] - V) - w.diagonal_below(j) * (below[east] - V);
+      const Real oblique = w.diagonal(j) * (above[east] - V) + w.diagonal_below(j - 1) * (below[west] - V) +
+                           w.antidiagonal(j - 1) * (above[west] - V) +
+                           w.antidiagonal_below(j) * (below[east] - V);
       return w.inverse_mass(j) * (straight + oblique);
     }
     KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
@@ -150,25 +164,34 @@ struct ConservativeDiffusion {
     const Real* KOKKOS_RESTRICT north_below_;
     const Real* KOKKOS_RESTRICT diagonal_;
     const Real* KOKKOS_RESTRICT diagonal_below_;
+    const Real* KOKKOS_RESTRICT antidiagonal_;
+    const Real* KOKKOS_RESTRICT antidiagonal_below_;
     const Real* KOKKOS_RESTRICT inverse_mass_;
     KOKKOS_FORCEINLINE_FUNCTION Real east(int j) const { return east_[j + 1]; }
     KOKKOS_FORCEINLINE_FUNCTION Real north(int j) const { return north_[j + 1]; }
     KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return north_below_[j + 1]; }
     KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return diagonal_[j + 1]; }
     KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return diagonal_below_[j + 1]; }
+    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal(int j) const {
+      return stencil == Stencil::nine_point ? antidiagonal_[j + 1] : -diagonal(j);
+    }
+    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal_below(int j) const {
+      return stencil == Stencil::nine_point ? antidiagonal_below_[j + 1] : -diagonal_below(j);
+    }
     KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return inverse_mass_[j + 1]; }
     KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
       prefetch_to_read(east_ + j);
       prefetch_to_read(north_ + j);
       prefetch_to_read(diagonal_ + j);
+      if constexpr (stencil == Stencil::nine_point) prefetch_to_read(antidiagonal_ + j);
       prefetch_to_read(inverse_mass_ + j);
     }
   };
 
   template <int pitch, class Columns>
   struct RowsOfTile {
-    using Weights = WeightRows<Real, pitch>;
-    ConservativeMetric<Real, MemorySpace> metric;
+    using Weights = WeightRows<Real, pitch, stencil>;
+    ConservativeMetric<Real, MemorySpace, stencil> metric;
     Columns columns;
     int member, origin, inside;
     Weights weights;
@@ -178,6 +201,7 @@ struct ConservativeDiffusion {
       copy(metric.east, weights.east(i), i);
       copy(metric.north, weights.north(i), i);
       copy(metric.diagonal, weights.diagonal(i), i);
+      if constexpr (stencil == Stencil::nine_point) copy(metric.antidiagonal, weights.antidiagonal(i), i);
       copy(metric.inverse_mass, weights.inverse_mass(i), i);
     }
     KOKKOS_FORCEINLINE_FUNCTION auto row(const StencilRows<Real>& V, int i) const {
@@ -185,8 +209,8 @@ struct ConservativeDiffusion {
     }
 
    private:
-    KOKKOS_FORCEINLINE_FUNCTION void copy(const typename ConservativeMetric<Real, MemorySpace>::View& view,
-                                          Real* to, int i) const {
+    KOKKOS_FORCEINLINE_FUNCTION void copy(const EnsembleField<Real, MemorySpace>& view, Real* to,
+                                          int i) const {
       const Real* const from = &view(member, i + 1, origin + 1);
       const Real* const next = from + view.stride(1);
       columns.template each<Real>(
@@ -195,7 +219,7 @@ struct ConservativeDiffusion {
   };
   template <int pitch>
   static constexpr int scratch_rows(int slots) {
-    return WeightRows<Real, pitch>::rows(slots);
+    return WeightRows<Real, pitch, stencil>::rows(slots);
   }
   template <int pitch, class Columns>
   KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<pitch, Columns> metric_rows(const Columns& columns, int m,
@@ -205,10 +229,13 @@ struct ConservativeDiffusion {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION RowOf<Loaded> row(const StencilRows<Real>& V, int m, int i, int origin) const {
-    return {V,
-            {&metric.east(m, i + 1, origin), &metric.north(m, i + 1, origin), &metric.north(m, i, origin),
-             &metric.diagonal(m, i + 1, origin), &metric.diagonal(m, i, origin),
-             &metric.inverse_mass(m, i + 1, origin)}};
+    // Of five points its place is taken by one that is there, and not looked at.
+    const auto& antidiagonal = stencil == Stencil::nine_point ? metric.antidiagonal : metric.diagonal;
+    return {
+        V,
+        {&metric.east(m, i + 1, origin), &metric.north(m, i + 1, origin), &metric.north(m, i, origin),
+         &metric.diagonal(m, i + 1, origin), &metric.diagonal(m, i, origin), &antidiagonal(m, i + 1, origin),
+         &antidiagonal(m, i, origin), &metric.inverse_mass(m, i + 1, origin)}};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Real at(const ConstView& V, int m, int i, int j) const {

@@ -14,18 +14,29 @@ namespace myowave::transfer {
 
 // The extremes over the centres of all FD cells.
 struct DeformationBounds {
-  double max_trace_inverse_C = 0;  // the stability bound's tr C^-1; 2 undeformed
+  double max_trace_inverse_C = 0;  // 2 undeformed
+  double max_stiffness = 0;        // see cell_stiffness
   double min_J = 0;                // det F
 };
 
+// The largest rate of a mode of a cell is 4 D / dx^2 times this: that of its two slopes, or of its twist. tr
+// C^-1 for the five-point stencil.
+template <tissue::Stencil stencil>
+KOKKOS_INLINE_FUNCTION double cell_stiffness(const Sym2& C, double det_F) {
+  const double inverse_det_C = 1 / (det_F * det_F), tr = trace(C) * inverse_det_C;
+  if constexpr (stencil == tissue::Stencil::five_point) return tr;
+  const double largest_eigenvalue = 0.5 * (tr + Kokkos::sqrt(Kokkos::max(tr * tr - 4 * inverse_det_C, 0.0)));
+  return Kokkos::max(largest_eigenvalue, (1 - 4 * tissue::twist_part(stencil)) * tr);
+}
+
 // Writes the metric of one member of the `conservative` form. Holds the scratch that it needs, so
 // that a refresh allocates nothing.
-template <class ExecutionSpace, class Real>
+template <class ExecutionSpace, class Real, tissue::Stencil stencil = tissue::Stencil::five_point>
 class ConservativeTransfer {
  public:
   using MemorySpace = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, MemorySpace>;
-  using Metric = tissue::ConservativeMetric<Real, MemorySpace>;
+  using Metric = tissue::ConservativeMetric<Real, MemorySpace, stencil>;
 
   ConservativeTransfer() = default;
   ConservativeTransfer(const tissue::Grid& grid, const elastic::ElementGrid& elements, int cells_per_element)
@@ -39,23 +50,24 @@ class ConservativeTransfer {
   // Waits for the bounds; errors are the caller's to raise (min_J <= 0, the stability bound).
   DeformationBounds refresh(const ExecutionSpace& space, const Nodes<MemorySpace>& nodes,
                             const Metric& metric, int member) const {
-    const DeformationBounds bounds = cell_pass(space, nodes, metric.diagonal, member);
+    const DeformationBounds bounds = cell_pass(space, nodes, metric, member);
     edge_pass(space, metric, member);
     return bounds;
   }
 
   // Called by refresh(); public because a device lambda may not stand in a private function.
   DeformationBounds cell_pass(const ExecutionSpace& space, const Nodes<MemorySpace>& nodes,
-                              const View& diagonal, int m) const {
+                              const Metric& metric, int m) const {
     const auto elements = elements_;
     const int cells = cells_;
     const auto G11 = G11_, G22 = G22_, sqrt_C = sqrt_C_;
+    const auto diagonal = metric.diagonal, antidiagonal = metric.antidiagonal;
     const double width = 1.0 / cells;
     DeformationBounds bounds;
     Kokkos::parallel_reduce(
         "myowave::transfer::cell_metric",
         Kokkos::RangePolicy<ExecutionSpace>(space, 0, (grid_.rows - 1) * elements.columns),
-        KOKKOS_LAMBDA(int strip, double& max_trace, double& min_J) {
+        KOKKOS_LAMBDA(int strip, double& max_trace, double& max_stiffness, double& min_J) {
           const int i = strip / elements.columns, J = strip % elements.columns, I = i / cells;
           const auto element = elastic::element_nodes(elements, nodes, elements.element(I, J));
           const double xi_2 = (i - I * cells + 0.5) * width;
@@ -66,15 +78,21 @@ class ConservativeTransfer {
             const double inverse_J = 1 / det_F;
             const int j = J * cells + c;
             // G = sqrt C C^-1 = adj(C) / J
-            G11(i + 1, j + 1) = Real(C.m22 * inverse_J);
-            G22(i + 1, j + 1) = Real(C.m11 * inverse_J);
-            diagonal(m, i + 1, j + 1) = Real(-0.5 * C.m12 * inverse_J);
+            const double twist = tissue::twist_part(stencil) * trace(C) * inverse_J;
+            const double half_G12 = -0.5 * C.m12 * inverse_J;
+            G11(i + 1, j + 1) = Real(C.m22 * inverse_J - 2 * twist);
+            G22(i + 1, j + 1) = Real(C.m11 * inverse_J - 2 * twist);
+            diagonal(m, i + 1, j + 1) = Real(twist + half_G12);
+            if constexpr (stencil == tissue::Stencil::nine_point)
+              antidiagonal(m, i + 1, j + 1) = Real(twist - half_G12);
             sqrt_C(i + 1, j + 1) = Real(det_F);
             max_trace = Kokkos::max(max_trace, trace(C) * inverse_J * inverse_J);
+            max_stiffness = Kokkos::max(max_stiffness, cell_stiffness<stencil>(C, det_F));
             min_J = Kokkos::min(min_J, det_F);
           }
         },
-        Kokkos::Max<double>(bounds.max_trace_inverse_C), Kokkos::Min<double>(bounds.min_J));
+        Kokkos::Max<double>(bounds.max_trace_inverse_C), Kokkos::Max<double>(bounds.max_stiffness),
+        Kokkos::Min<double>(bounds.min_J));
     return bounds;
   }
 
@@ -99,7 +117,7 @@ class ConservativeTransfer {
   tissue::Grid grid_;
   elastic::ElementGrid elements_;
   int cells_ = 1;
-  // Shifted by one as ConservativeMetric; entries outside the sheet stay zero.
+  // Less twice the twist; shifted by one as ConservativeMetric; entries outside the sheet stay zero.
   Scratch G11_, G22_, sqrt_C_;
 };
 
@@ -182,6 +200,7 @@ class ExpandedTransfer {
           min_J = Kokkos::min(min_J, det_F);
         },
         Kokkos::Max<double>(result.max_trace_inverse_C), Kokkos::Min<double>(result.min_J));
+    result.max_stiffness = result.max_trace_inverse_C;
     return result;
   }
 

@@ -159,6 +159,21 @@ Values diffusion_identity(const Grid& grid, const Values& V) {
   return result;
 }
 
+Values diffusion_nine_point(const Grid& grid, const Values& V) {
+  Values result(grid.size());
+  for (int i = 0; i < grid.rows; ++i)
+    for (int j = 0; j < grid.columns; ++j) {
+      double sum = 0;
+      for (int di = -1; di <= 1; ++di)
+        for (int dj = -1; dj <= 1; ++dj) {
+          const double weight = di == 0 && dj == 0 ? -20 : (di == 0 || dj == 0 ? 4 : 1);
+          sum += weight * V[grid.node(mirrored(i + di, grid.rows), mirrored(j + dj, grid.columns))];
+        }
+      result[grid.node(i, j)] = sum / (6 * grid.dx * grid.dx);
+    }
+  return result;
+}
+
 Values node_weights(const Grid& grid, const Mesh& mesh, const Values& x) {
   Values M(grid.size());
   for (int i = 0; i < grid.rows - 1; ++i)
@@ -170,7 +185,8 @@ Values node_weights(const Grid& grid, const Mesh& mesh, const Values& x) {
   return M;
 }
 
-Values diffusion_conservative(const Grid& grid, const Mesh& mesh, const Values& x, const Values& V) {
+Values diffusion_conservative(const Grid& grid, const Mesh& mesh, const Values& x, const Values& V,
+                              double twist) {
   Values dE(grid.size());
   for (int i = 0; i < grid.rows - 1; ++i)
     for (int j = 0; j < grid.columns - 1; ++j) {
@@ -188,6 +204,9 @@ Values diffusion_conservative(const Grid& grid, const Mesh& mesh, const Values& 
       dE[n10] += G11 * lower / 2 - G22 * right / 2 + G12 * (along2 - along1) / 2;
       dE[n01] += -G11 * upper / 2 + G22 * left / 2 + G12 * (-along2 + along1) / 2;
       dE[n11] += G11 * upper / 2 + G22 * right / 2 + G12 * (along2 + along1) / 2;
+      const double twisted = twist * (G11 + G22) * (V[n00] + V[n11] - V[n10] - V[n01]);
+      dE[n00] -= twisted, dE[n11] -= twisted;
+      dE[n10] += twisted, dE[n01] += twisted;
     }
   const Values M = node_weights(grid, mesh, x);
   Values result(grid.size());
@@ -239,6 +258,26 @@ ExcitationState euler_step(const solver::ExcitationSettings& p, const solver::Te
     next.V[n] = V + dt * dV_dt[n];
     next.r[n] = r + dt * (p.eps + p.mu1 * r / (p.mu2 + V)) * (-r - p.k * V * (V - p.b - 1));
     next.Ta[n] = Ta + dt * eps_T * (tension.k_Ta * V - Ta);
+  }
+  return next;
+}
+
+ExcitationState split_step(const solver::ExcitationSettings& p, const solver::TensionSettings& tension,
+                           double dt, const ExcitationState& old, const Values& diffusion) {
+  const auto f = [&](double V, double r) { return (-p.k * V * (V - p.a) * (V - 1) - r * V) / p.C_m; };
+  ExcitationState next = old;
+  for (std::size_t n = 0; n < old.V.size(); ++n) {
+    const double r = old.r[n], Ta = old.Ta[n];
+    const double V = old.V[n] + dt * p.D * diffusion[n] / p.C_m;
+    const double V_middle = V + dt / 2 * f(V, r);
+    // r_t = A B with A = eps + mu1 r / (mu2 + V), B = -r - k V (V - b - 1);  r_tt = (A_r B + A B_r) r_t
+    const double A = p.eps + p.mu1 * r / (p.mu2 + V_middle), A_r = p.mu1 / (p.mu2 + V_middle);
+    const double B = -r - p.k * V_middle * (V_middle - p.b - 1);
+    next.r[n] = r + dt * A * B + dt * dt / 2 * (A_r * B - A) * A * B;
+    next.V[n] = V + dt * f(V_middle, (r + next.r[n]) / 2);
+    const double eps_T = V_middle < tension.threshold ? tension.eps_below : tension.eps_above;
+    const double Ta_t = eps_T * (tension.k_Ta * V_middle - Ta);
+    next.Ta[n] = Ta + dt * Ta_t - dt * dt / 2 * eps_T * Ta_t;
   }
   return next;
 }

@@ -30,6 +30,13 @@ struct Conservative {
 };
 
 template <class Real>
+struct NinePoint {
+  static constexpr auto stencil = tissue::Stencil::nine_point;
+  using Transfer = transfer::ConservativeTransfer<ExecutionSpace, Real, stencil>;
+  using Diffusion = tissue::ConservativeDiffusion<Real, MemorySpace, stencil>;
+};
+
+template <class Real>
 struct Expanded {
   using Transfer = transfer::ExpandedTransfer<ExecutionSpace, Real>;
   using Diffusion = tissue::ExpandedDiffusion<Real, MemorySpace>;
@@ -96,13 +103,13 @@ double weighted_sum(const Values& M, const Values& V) {
   return sum;
 }
 
-template <class Form>
+template <class Form, tissue::Stencil stencil = tissue::Stencil::five_point>
 void expect_identity(double tolerance) {
   using Diffusion = typename Form::Diffusion;
   using Real = typename Diffusion::Scalar;
   const Values V = test::random_field(sheet.size(), 0, 1, 1);
   const auto undeformed = deform<Form>(sheet, reference::undeformed(sheet.mesh()));
-  const tissue::IdentityDiffusion<Real, MemorySpace> identity(sheet.grid());
+  const tissue::IdentityDiffusion<Real, MemorySpace, stencil> identity(sheet.grid());
   EXPECT_TRUE(all_close(diffused(sheet, undeformed.diffusion, V), diffused(sheet, identity, V), sheet.columns,
                         {.absolute = tolerance}));
   EXPECT_NEAR(undeformed.bounds.max_trace_inverse_C, 2, 1e-14);
@@ -117,6 +124,13 @@ TEST(Metric, OfTheUndeformedSheetIsTheFivePointStencil) {
   expect_identity<Expanded<float>>(2e-5);
 }
 
+TEST(Metric, OfTheUndeformedSheetIsTheNinePointStencil) {
+  expect_identity<NinePoint<double>, tissue::Stencil::nine_point>(2e-13);
+  expect_identity<NinePoint<float>, tissue::Stencil::nine_point>(2e-5);
+  EXPECT_NEAR(deform<NinePoint<double>>(sheet, reference::undeformed(sheet.mesh())).bounds.max_stiffness,
+              4.0 / 3, 1e-14);
+}
+
 template <class Form>
 void expect_constants_stay() {
   const auto deformed = deform<Form>(sheet, test::crumpled(sheet.mesh(), 5));
@@ -125,6 +139,7 @@ void expect_constants_stay() {
 
 TEST(Metric, ConstantsDoNotDiffuse) {
   expect_constants_stay<Conservative<double>>();
+  expect_constants_stay<NinePoint<double>>();
   expect_constants_stay<Expanded<double>>();
   expect_constants_stay<Conservative<float>>();
   expect_constants_stay<Expanded<float>>();
@@ -133,29 +148,34 @@ TEST(Metric, ConstantsDoNotDiffuse) {
 double largest_dt(const transfer::DeformationBounds& bounds) {
   solver::Scene scene;
   scene.excitation.k = 0;
-  return solver::largest_stable_dt(scene, bounds.max_trace_inverse_C);
+  return solver::largest_stable_dt(scene, bounds.max_stiffness);
 }
 
-TEST(Metric, ConservativeFormConservesTheWeightedSum) {
+template <class Form>
+void expect_weighted_sum_stays() {
   const Values x = test::crumpled(sheet.mesh(), 6),
                M = reference::node_weights(sheet.reference_grid(), sheet.mesh(), x);
-  const auto deformed = deform<Conservative<double>>(sheet, x);
+  const auto deformed = deform<Form>(sheet, x);
   ASSERT_GT(deformed.bounds.min_J, 0.2);
   const Values V = test::random_field(sheet.size(), 0, 1, 7);
   Heat heat(sheet, deformed.diffusion, 0.9 * largest_dt(deformed.bounds), V);
   heat.advance(1000);
   const Values V_end = heat.V();
   const double before = weighted_sum(M, V), after = weighted_sum(M, V_end);
-  RecordProperty("relative_drift", std::to_string(1e15 * (after / before - 1)) + "e-15");
+  ::testing::Test::RecordProperty("relative_drift", std::to_string(1e15 * (after / before - 1)) + "e-15");
   EXPECT_NEAR(after / before, 1, 1e-12);
   // and it has diffused: most of the difference between the nodes is gone
   EXPECT_LT(*std::max_element(V_end.begin(), V_end.end()), 0.8);
 }
 
-TEST(Metric, ConservativeFormLosesEnergyUpToTheStabilityBound) {
+TEST(Metric, ConservativeFormConservesTheWeightedSum) { expect_weighted_sum_stays<Conservative<double>>(); }
+TEST(Metric, NinePointFormConservesTheWeightedSum) { expect_weighted_sum_stays<NinePoint<double>>(); }
+
+template <class Form>
+void expect_energy_loss_up_to_the_bound() {
   const Values x = test::crumpled(sheet.mesh(), 8),
                M = reference::node_weights(sheet.reference_grid(), sheet.mesh(), x);
-  const auto deformed = deform<Conservative<double>>(sheet, x);
+  const auto deformed = deform<Form>(sheet, x);
   // The two energies that decay: sum M V^2, and sum of the cell energies = -1/2 sum M V V_t.
   const auto energies = [&](const Values& V) {
     const Values rate = diffused(sheet, deformed.diffusion, V);
@@ -176,6 +196,13 @@ TEST(Metric, ConservativeFormLosesEnergyUpToTheStabilityBound) {
     ASSERT_LT(next[1], energy[1]) << "step " << n;
     energy = next;
   }
+}
+
+TEST(Metric, ConservativeFormLosesEnergyUpToTheStabilityBound) {
+  expect_energy_loss_up_to_the_bound<Conservative<double>>();
+}
+TEST(Metric, NinePointFormLosesEnergyUpToItsStabilityBound) {
+  expect_energy_loss_up_to_the_bound<NinePoint<double>>();
 }
 
 template <class Form>

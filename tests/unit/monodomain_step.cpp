@@ -16,6 +16,7 @@ namespace myowave {
 namespace {
 
 using solver::MetricForm;
+using solver::Scheme;
 using test::ExecutionSpace;
 using test::MemorySpace;
 using test::Sheet;
@@ -45,23 +46,42 @@ Member random_member(const Sheet& sheet, unsigned seed) {
       test::crumpled(sheet.mesh(), seed + 3)};
 }
 
-Values reference_diffusion(MetricForm form, const Sheet& sheet, const Member& member) {
+// The diffusion term of a step, and its scheme.
+struct Kind {
+  MetricForm form;
+  Scheme scheme;
+};
+
+Values reference_diffusion(Kind kind, const Sheet& sheet, const Member& member) {
   const auto grid = sheet.reference_grid();
-  switch (form) {
+  const bool nine_point = kind.scheme == Scheme::split;
+  switch (kind.form) {
     case MetricForm::conservative:
-      return reference::diffusion_conservative(grid, sheet.mesh(), member.nodes, member.state.V);
+      return reference::diffusion_conservative(grid, sheet.mesh(), member.nodes, member.state.V,
+                                               nine_point ? 1.0 / 12 : 0);
     case MetricForm::expanded:
       return reference::diffusion_expanded(grid, sheet.mesh(), member.nodes, member.state.V);
     case MetricForm::none:
       break;
   }
-  return reference::diffusion_identity(grid, member.state.V);
+  return nine_point ? reference::diffusion_nine_point(grid, member.state.V)
+                    : reference::diffusion_identity(grid, member.state.V);
 }
 
-// The diffusion term in a form, on the metrics of all members; action(diffusion).
-template <class Real, class Action>
+reference::ExcitationState reference_step(Kind kind, const Sheet& sheet, const Member& member) {
+  const Values diffusion = reference_diffusion(kind, sheet, member);
+  return kind.scheme == Scheme::split
+             ? reference::split_step(excitation, tension, dt, member.state, diffusion)
+             : reference::euler_step(excitation, tension, dt, member.state, diffusion, Values(sheet.size()));
+}
+
+// The diffusion term in a form, on the metrics of all members; action(diffusion, model).
+template <class Real, class TimeScheme, class Action>
 void with_diffusion(MetricForm form, const Sheet& sheet, const std::vector<Member>& members,
-                    const Action& action) {
+                    const Action& act) {
+  constexpr tissue::Stencil stencil = solver::stencil_of<TimeScheme>;
+  const auto euler = solver::make_model<Real>(excitation, tension);
+  const auto action = [&](const auto& diffusion) { act(diffusion, solver::in_scheme<TimeScheme>(euler)); };
   const ExecutionSpace space;
   const tissue::Grid grid = sheet.grid();
   const int count = static_cast<int>(members.size());
@@ -70,10 +90,11 @@ void with_diffusion(MetricForm form, const Sheet& sheet, const std::vector<Membe
   };
   switch (form) {
     case MetricForm::conservative: {
-      const tissue::ConservativeMetric<Real, MemorySpace> metric(count, grid);
-      refresh(transfer::ConservativeTransfer<ExecutionSpace, Real>(grid, sheet.elements(), sheet.cells),
-              metric);
-      return action(tissue::ConservativeDiffusion<Real, MemorySpace>(grid, metric));
+      const tissue::ConservativeMetric<Real, MemorySpace, stencil> metric(count, grid);
+      refresh(
+          transfer::ConservativeTransfer<ExecutionSpace, Real, stencil>(grid, sheet.elements(), sheet.cells),
+          metric);
+      return action(tissue::ConservativeDiffusion<Real, MemorySpace, stencil>(grid, metric));
     }
     case MetricForm::expanded: {
       const tissue::ExpandedMetric<Real, MemorySpace> metric(count, grid);
@@ -81,12 +102,20 @@ void with_diffusion(MetricForm form, const Sheet& sheet, const std::vector<Membe
       return action(tissue::ExpandedDiffusion<Real, MemorySpace>(grid, metric));
     }
     case MetricForm::none:
-      return action(tissue::IdentityDiffusion<Real, MemorySpace>(grid));
+      return action(tissue::IdentityDiffusion<Real, MemorySpace, stencil>(grid));
   }
 }
 
+template <class Real, class Action>
+void with_diffusion(Kind kind, const Sheet& sheet, const std::vector<Member>& members, const Action& action) {
+  if (kind.scheme == Scheme::split)
+    with_diffusion<Real, tissue::SplitStep>(kind.form, sheet, members, action);
+  else
+    with_diffusion<Real, tissue::ForwardEuler>(kind.form, sheet, members, action);
+}
+
 template <class Real>
-std::vector<reference::ExcitationState> stepped(MetricForm form, const Sheet& sheet,
+std::vector<reference::ExcitationState> stepped(Kind kind, const Sheet& sheet,
                                                 const std::vector<Member>& members) {
   std::vector<Values> V, r, Ta;
   for (const Member& member : members) {
@@ -98,9 +127,8 @@ std::vector<reference::ExcitationState> stepped(MetricForm form, const Sheet& sh
   const auto r_view = test::to_view<Real>(sheet.rows, sheet.columns, r);
   const auto Ta_view = test::to_view<Real>(sheet.rows, sheet.columns, Ta);
   const EnsembleField<Real, MemorySpace> V_next("V_next", members.size(), sheet.rows, sheet.columns);
-  with_diffusion<Real>(form, sheet, members, [&](const auto& diffusion) {
-    tissue::monodomain_step(ExecutionSpace(), diffusion, solver::make_model<Real>(excitation, tension), dt,
-                            V_view, r_view, Ta_view, V_next);
+  with_diffusion<Real>(kind, sheet, members, [&](const auto& diffusion, const auto& model) {
+    tissue::monodomain_step(ExecutionSpace(), diffusion, model, dt, V_view, r_view, Ta_view, V_next);
   });
   std::vector<reference::ExcitationState> result;
   for (int m = 0; m < static_cast<int>(members.size()); ++m)
@@ -108,19 +136,17 @@ std::vector<reference::ExcitationState> stepped(MetricForm form, const Sheet& sh
   return result;
 }
 
-class Step : public ::testing::TestWithParam<std::tuple<Sheet, MetricForm>> {
+class Step : public ::testing::TestWithParam<std::tuple<Sheet, Kind>> {
  protected:
   const Sheet sheet = std::get<0>(GetParam());
-  const MetricForm form = std::get<1>(GetParam());
+  const Kind kind = std::get<1>(GetParam());
 
   template <class Real>
   void expect_reference(Tolerance tolerance) const {
     const Member member = random_member(sheet, 11);
     ASSERT_GT(reference::smallest_corner_J(sheet.mesh(), member.nodes), 0.1);
-    const auto expected =
-        reference::euler_step(excitation, tension, dt, member.state, reference_diffusion(form, sheet, member),
-                              Values(sheet.size()));
-    const auto actual = stepped<Real>(form, sheet, {member}).front();
+    const auto expected = reference_step(kind, sheet, member);
+    const auto actual = stepped<Real>(kind, sheet, {member}).front();
     EXPECT_TRUE(all_close(actual.V, expected.V, sheet.columns, tolerance));
     EXPECT_TRUE(all_close(actual.r, expected.r, sheet.columns, tolerance));
     EXPECT_TRUE(all_close(actual.Ta, expected.Ta, sheet.columns, tolerance));
@@ -129,9 +155,9 @@ class Step : public ::testing::TestWithParam<std::tuple<Sheet, MetricForm>> {
   template <class Real>
   void expect_members_as_alone() const {
     const Member first = random_member(sheet, 21), second = random_member(sheet, 31);
-    const auto together = stepped<Real>(form, sheet, {first, second});
+    const auto together = stepped<Real>(kind, sheet, {first, second});
     for (int m = 0; m < 2; ++m) {
-      const auto alone = stepped<Real>(form, sheet, {m == 0 ? first : second}).front();
+      const auto alone = stepped<Real>(kind, sheet, {m == 0 ? first : second}).front();
       EXPECT_EQ(together[m].V, alone.V);
       EXPECT_EQ(together[m].r, alone.r);
       EXPECT_EQ(together[m].Ta, alone.Ta);
@@ -161,15 +187,16 @@ Values rate_everywhere(const Sheet& sheet, const Rate& rate) {
 }
 
 TEST_P(Step, RateIsWhatTheStepAdds) {
+  if (kind.scheme != Scheme::euler) GTEST_SKIP() << "an explicit Euler step alone adds dt times the rate";
   const Member member = random_member(sheet, 41);
-  const Values next = stepped<double>(form, sheet, {member}).front().V;
+  const Values next = stepped<double>(kind, sheet, {member}).front().V;
   Values expected(next.size());
   for (std::size_t n = 0; n < next.size(); ++n) expected[n] = (next[n] - member.state.V[n]) / dt;
 
   const Kokkos::View<tissue::ActiveStimulus*, MemorySpace> none;
   const auto V = test::to_view<double>(sheet.rows, sheet.columns, {member.state.V});
   const auto r = test::to_view<double>(sheet.rows, sheet.columns, {member.state.r});
-  with_diffusion<double>(form, sheet, {member}, [&](const auto& diffusion) {
+  with_diffusion<double>(kind, sheet, {member}, [&](const auto& diffusion, const auto&) {
     using Rate = tissue::MonodomainRate<std::decay_t<decltype(diffusion)>, solver::Model<double>>;
     const Rate rate{diffusion, solver::make_model<double>(excitation, tension), V, r, none};
     EXPECT_TRUE(all_close(rate_everywhere(sheet, rate), expected, sheet.columns, {.absolute = 1e-12}));
@@ -177,17 +204,21 @@ TEST_P(Step, RateIsWhatTheStepAdds) {
 }
 
 std::string name_of(const ::testing::TestParamInfo<Step::ParamType>& info) {
-  const auto& [sheet, form] = info.param;
-  const std::string name = form == MetricForm::none           ? "identity_"
-                           : form == MetricForm::conservative ? "conservative_"
-                                                              : "expanded_";
-  return name + std::to_string(sheet.rows) + "x" + std::to_string(sheet.columns);
+  const auto& [sheet, kind] = info.param;
+  const std::string name = kind.form == MetricForm::none           ? "identity_"
+                           : kind.form == MetricForm::conservative ? "conservative_"
+                                                                   : "expanded_";
+  return name + (kind.scheme == Scheme::split ? "split_" : "") + std::to_string(sheet.rows) + "x" +
+         std::to_string(sheet.columns);
 }
 
 INSTANTIATE_TEST_SUITE_P(MonodomainStep, Step,
                          ::testing::Combine(::testing::ValuesIn(sheets),
-                                            ::testing::Values(MetricForm::none, MetricForm::conservative,
-                                                              MetricForm::expanded)),
+                                            ::testing::Values(Kind{MetricForm::none, Scheme::euler},
+                                                              Kind{MetricForm::none, Scheme::split},
+                                                              Kind{MetricForm::conservative, Scheme::euler},
+                                                              Kind{MetricForm::conservative, Scheme::split},
+                                                              Kind{MetricForm::expanded, Scheme::euler})),
                          name_of);
 
 TEST(MonodomainStep, UniformSheetIsTheHandCase) {

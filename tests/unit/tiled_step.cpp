@@ -52,11 +52,11 @@ Fields<Real> empty_state(const Sheet& sheet) {
           View("Ta", members, sheet.rows, sheet.columns)};
 }
 
-template <class Real>
-tissue::ConservativeDiffusion<Real, MemorySpace> loaded(const Sheet& sheet) {
-  const tissue::ConservativeMetric<Real, MemorySpace> metric(members, sheet.grid());
-  const transfer::ConservativeTransfer<ExecutionSpace, Real> transfer(sheet.grid(), sheet.elements(),
-                                                                      sheet.cells);
+template <class Real, tissue::Stencil stencil = tissue::Stencil::five_point>
+tissue::ConservativeDiffusion<Real, MemorySpace, stencil> loaded(const Sheet& sheet) {
+  const tissue::ConservativeMetric<Real, MemorySpace, stencil> metric(members, sheet.grid());
+  const transfer::ConservativeTransfer<ExecutionSpace, Real, stencil> transfer(sheet.grid(), sheet.elements(),
+                                                                               sheet.cells);
   for (int m = 0; m < members; ++m)
     transfer.refresh(ExecutionSpace(), test::to_nodes(test::crumpled(sheet.mesh(), 7)), metric, m);
   return {sheet.grid(), metric};
@@ -67,22 +67,29 @@ transfer::DeformedDiffusion<Real, MemorySpace> from_nodes(const Sheet& sheet) {
   return {sheet.grid(), sheet.elements(), sheet.cells, test::to_nodes(test::crumpled(sheet.mesh(), 7))};
 }
 
-template <class Real, class Diffusion>
+template <class Real, class Scheme>
+solver::Model<Real, Scheme> model_of() {
+  return solver::in_scheme<Scheme>(solver::make_model<Real>({}, {}));
+}
+
+template <class Real, class Scheme = tissue::ForwardEuler, class Diffusion>
 Fields<Real> single_steps(const Sheet& sheet, const Diffusion& diffusion, int steps) {
   auto state = random_state<Real>(sheet), next = empty_state<Real>(sheet);
   for (int n = 0; n < steps; ++n) {
-    tissue::monodomain_step(ExecutionSpace(), diffusion, solver::make_model<Real>({}, {}), dt, state.V,
-                            state.r, state.Ta, next.V);
+    tissue::monodomain_step(ExecutionSpace(), diffusion, model_of<Real, Scheme>(), dt, state.V, state.r,
+                            state.Ta, next.V);
     std::swap(state.V, next.V);
   }
   return state;
 }
 
-template <class Real, int lag = tissue::tile_lag<ExecutionSpace>, class Diffusion>
+template <class Real, int lag = tissue::tile_lag<ExecutionSpace>, class Scheme = tissue::ForwardEuler,
+          class Diffusion>
 Fields<Real> one_launch(const Sheet& sheet, const Diffusion& diffusion, const tissue::TilePlan& plan) {
-  using Step = tissue::TiledStep<ExecutionSpace, Diffusion, solver::Model<Real>, tissue::NoRecorder, lag>;
+  using Step =
+      tissue::TiledStep<ExecutionSpace, Diffusion, solver::Model<Real, Scheme>, tissue::NoRecorder, lag>;
   const auto state = random_state<Real>(sheet), next = empty_state<Real>(sheet);
-  Step::launch(ExecutionSpace(), diffusion, solver::make_model<Real>({}, {}), dt, plan, state, next);
+  Step::launch(ExecutionSpace(), diffusion, model_of<Real, Scheme>(), dt, plan, state, next);
   return next;
 }
 
@@ -126,10 +133,28 @@ class TiledStep : public ::testing::TestWithParam<std::tuple<int, int>> {
     expect_equal(one_launch<Real>(sheet, conservative, plan), single_steps<Real>(sheet, conservative, depth),
                  sheet.columns);
   }
+
+  template <class Real>
+  void expect_single_split_steps() const {
+    using Scheme = tissue::SplitStep;
+    constexpr auto nine_point = tissue::Stencil::nine_point;
+    const auto expect_same = [&](const auto& diffusion) {
+      const auto expected = single_steps<Real, Scheme>(sheet, diffusion, depth);
+      expect_equal(one_launch<Real, 1, Scheme>(sheet, diffusion, plan), expected, sheet.columns);
+      expect_equal(one_launch<Real, 2, Scheme>(sheet, diffusion, plan), expected, sheet.columns);
+    };
+    expect_same(tissue::IdentityDiffusion<Real, MemorySpace, nine_point>(sheet.grid()));
+    expect_same(loaded<Real, nine_point>(sheet));
+  }
 };
 
 TEST_P(TiledStep, Float64IsSingleStepsToTheBit) { expect_single_steps<double>(); }
 TEST_P(TiledStep, Float32IsSingleStepsToTheBit) { expect_single_steps<float>(); }
+
+TEST_P(TiledStep, SplitStepsAreSingleOnesToTheBit) {
+  expect_single_split_steps<double>();
+  expect_single_split_steps<float>();
+}
 
 TEST_P(TiledStep, MetricFromNodesIsTheLoadedOneToRounding) {
   const auto expected = single_steps<double>(sheet, loaded<double>(sheet), depth);
