@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "apps/initial_state.hpp"
+#include "apps/presets.hpp"
 #include "apps/scene_tables.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
@@ -711,9 +712,9 @@ bool is_index(const std::string& text) {
   return !text.empty() && text.size() < 9 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// The table that holds nothing but this value, its nodes marked as from this override.
-toml::table override_table(const std::string& key, const std::string& value) {
-  const std::string source = std::string(override_mark) + key;
+// The table that holds nothing but this value, its nodes marked as from the override of `origin`.
+toml::table override_table(const std::string& key, const std::string& value, const std::string& origin) {
+  const std::string source = std::string(override_mark) + origin;
   if (value.find_first_of("\r\n") == std::string::npos) {
     try {
       return toml::parse(fmt::format("{} = {}", key, value), source);
@@ -799,11 +800,26 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
     return;
   }
   try {
-    merge(root, override_table(key, trimmed(text.substr(equals + 1))), split(key));
+    merge(root, override_table(key, trimmed(text.substr(equals + 1)), key), split(key));
   } catch (const toml::parse_error& error) {
     problems.add_override(key, std::string(error.description()));
   } catch (const InputError& error) {
     problems.add_override(key, error.what());
+  }
+}
+
+constexpr std::string_view preset_key = "accuracy.preset";
+
+// The preset in force and whether an override gives it: then it changes what the file names.
+void apply_preset(toml::table& root, bool over_the_file) {
+  const Preset* const preset = find_preset(root.at_path(preset_key).value_or(std::string_view()));
+  if (preset == nullptr) return;
+  const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
+  for (const auto& [key, value, sheet] : preset->values) {
+    if (sheet != PresetValue::Sheet::any && (sheet == PresetValue::Sheet::elastic) != elastic) continue;
+    if (root.at_path(key) && !over_the_file) continue;
+    const std::string path(key);
+    merge(root, override_table(path, std::string(value), std::string(preset_key)), split(path));
   }
 }
 
@@ -812,6 +828,14 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
 Scene read_tables(toml::table root, const std::filesystem::path& file,
                   const std::vector<std::string>& overrides, Problems& problems) {
   for (const std::string& one : overrides) apply_override(root, one, problems);
+  const toml::node* const preset = root.at_path(preset_key).node();
+  if (preset != nullptr && is_override(preset->source())) {
+    apply_preset(root, true);
+    Problems told_before("");
+    for (const std::string& one : overrides) apply_override(root, one, told_before);
+  } else {
+    apply_preset(root, false);
+  }
   return SceneReader(root, file, problems).read();
 }
 

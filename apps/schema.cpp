@@ -9,6 +9,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "apps/presets.hpp"
 #include "solver/error.hpp"
 
 namespace myowave::apps {
@@ -85,6 +86,15 @@ Choice tension_law() {
     target.tension.eps_above = tension_laws[index].eps_above;
   };
   return law;
+}
+
+Choice preset() {
+  Choice choice{
+      {},
+      [](const Target& target) { return static_cast<std::size_t>(target.scene.preset); },
+      [](Target& target, std::size_t index) { target.scene.preset = static_cast<solver::Preset>(index); }};
+  for (const Preset& one : presets()) choice.names.push_back(one.name);
+  return choice;
 }
 
 Choices stop_on() {
@@ -294,7 +304,13 @@ std::vector<Section> make_schema() {
        .repeated = true},
       {"accuracy",
        "What the numbers are kept in, what happens where they go wrong, and what counts as zero.",
-       {{"precision", "", choice({"float64", "float32"}, MYOWAVE_AT(scene.precision)),
+       {{"preset", "", preset(),
+         "Accuracy by one word: time.dt, and of accuracy, feedback, mechanics and output what it takes. What "
+         "the "
+         "scene names itself stays, and a preset given by --set changes it; README.md shows what each costs "
+         "and "
+         "how far off it is."},
+        {"precision", "", choice({"float64", "float32"}, MYOWAVE_AT(scene.precision)),
          "Of V, r and Ta. The mechanics is always float64."},
         {"scheme", "", choice({"euler", "split"}, MYOWAVE_AT(scene.scheme)),
          "`euler`: the paper's explicit step with the five-point stencil; `split`: diffusion and reaction "
@@ -322,6 +338,10 @@ std::vector<Section> make_schema() {
          "Tips. A multiple of dt.", "every"},
         {"probes_every", "t.u.", number(MYOWAVE_AT(scene.output.probes_every), positive),
          "Probes. A multiple of dt.", "every"},
+        {"watch_every", "t.u.",
+         number(MYOWAVE_AT(scene.output.watch_every), {.low = 0, .high = 1, .low_open = true}),
+         "Break-up, death and the paths of tips are watched at the nearest multiple of dt, whatever is "
+         "shown."},
         {"from", "t.u.", number(MYOWAVE_AT(scene.output.from), not_negative),
          "What `every` says is shown from here on, and at t_end."},
         {"frames", "", flag(MYOWAVE_AT(scene.output.frames)), "PNG pictures of V on the deformed sheet."},

@@ -7,7 +7,6 @@ namespace myowave::solver {
 
 class BreakupWatch {
  public:
-  static constexpr double look_every = 0.2;     // t.u.
   static constexpr double must_last = 2.0;      // t.u.
   static constexpr double settling_time = 5.0;  // t.u., for raw initial data
   static constexpr double quiet_below = 0.05;   // V

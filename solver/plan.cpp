@@ -10,7 +10,6 @@
 #include "kernels/elastic/assemble.hpp"
 #include "kernels/observe/activation.hpp"
 #include "kernels/observe/phase_singularity.hpp"
-#include "solver/breakup.hpp"
 #include "solver/electromechanics.hpp"
 #include "solver/select_model.hpp"
 
@@ -191,7 +190,7 @@ PlannedPart tips(const Scene& scene) {
   return {.part = "tips",
           .active = true,
           .what = fmt::format("looked for every {} t.u. for break-up and death, shown every {} t.u.",
-                              BreakupWatch::look_every, scene.output.tips_every),
+                              scene.output.watch_every, scene.output.tips_every),
           .why = "always",
           .view_bytes = copies * (first_tips * sizeof(observe::PhaseSingularity) + sizeof(int))};
 }
@@ -199,7 +198,7 @@ PlannedPart tips(const Scene& scene) {
 PlannedPart probes(const Scene& scene, const Sizes& sizes) {
   const std::uint64_t number = scene.output.probes.size();
   if (number == 0) return {.part = "probes", .why = "output.probes is empty"};
-  const auto steps = static_cast<std::uint64_t>(std::max(1.0, BreakupWatch::look_every / scene.time.dt));
+  const auto steps = static_cast<std::uint64_t>(std::max(1.0, scene.output.watch_every / scene.time.dt));
   return {.part = "probes",
           .active = true,
           .what = fmt::format("{} nodes, V at each step for the periods, {} every {} t.u.", number,

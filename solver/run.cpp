@@ -35,7 +35,7 @@ struct Schedule {
         fields(every(scene.output.every, scene)),
         tips(every(scene.output.tips_every, scene)),
         probes(every(scene.output.probes_every, scene)),
-        watch(every(BreakupWatch::look_every, scene)),
+        watch(every(scene.output.watch_every, scene)),
         maps(scene.output.maps ? every(ActivationMaps::look_every, scene) : watch),
         mechanics(scene.mechanics ? scene.mechanics->interval : 0),
         check(scene.mechanics ? scene.mechanics->interval : check_without_mechanics),

@@ -57,6 +57,8 @@ enum class MetricForm { none, conservative, expanded };
 enum class Precision { float64, float32 };
 // Of the excitation, kernels/tissue/row_update.hpp.
 enum class Scheme { euler, split };
+// Accuracy by one word (apps/presets.hpp); what it stands for is in the scene's own values.
+enum class Preset { none, paper, fast, balanced, reference };
 // What a run does where its steps are unstable: end, or go back and take smaller ones.
 enum class OnUnstable { stop, substep };
 
@@ -110,10 +112,11 @@ struct InitialSettings {
 };
 
 struct OutputSettings {
-  double every = 1;         // t.u.
-  double tips_every = 1;    // t.u.
-  double probes_every = 1;  // t.u.
-  double from = 0;          // t.u.; before it nothing of `every` is shown
+  double every = 1;          // t.u.
+  double tips_every = 1;     // t.u.
+  double probes_every = 1;   // t.u.
+  double from = 0;           // t.u.; before it nothing of `every` is shown
+  double watch_every = 0.2;  // t.u., for break-up, death and the paths of tips
   bool frames = false;
   bool fields = false;
   bool element_areas = false;              // no effect in a rigid run
@@ -136,6 +139,7 @@ struct Scene {
   std::vector<Stimulus> stimuli;
   Precision precision = Precision::float64;
   Scheme scheme = Scheme::euler;
+  Preset preset = Preset::none;
   OnUnstable on_unstable = OnUnstable::stop;
   double quiescent = 0;  // |V|, |r|, |Ta| / k_Ta at rest; 0: exactly
   OutputSettings output;
