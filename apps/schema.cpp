@@ -215,13 +215,20 @@ std::vector<Section> make_schema() {
         {"overlap", "", flag(MYOWAVE_AT(scene.mechanics->overlap)),
          "`true`: the sheet is solved on a core of its own while the next interval runs, and conduction "
          "feels "
-         "the deformation one interval later. Its error is in solver/README.md."}}},
+         "the deformation one interval later. Its error is in solver/README.md."},
+        {"trigger", "kPa", number(MYOWAVE_AT(scene.mechanics->trigger), not_negative),
+         "A due solve is left out where the tension has moved by no more at any Gauss point since the last "
+         "one. "
+         "0: where it is exactly the same."}}},
       {"feedback",
        "How the deformation acts on conduction. No effect in a rigid run.",
        {{"metric", "", choice({"none", "conservative", "expanded"}, MYOWAVE_AT(scene.metric)),
          "`conservative`: fluxes on the deformed sheet; `expanded`: Eq 24 as printed, to compare with the "
          "paper; "
-         "`none`: conduction ignores the deformation."}}},
+         "`none`: conduction ignores the deformation."},
+        {"time", "", choice({"held", "linear", "quadratic"}, MYOWAVE_AT(scene.metric_time)),
+         "Whose deformation an interval feels: `held`: the last solve's; `linear`, `quadratic`: extrapolated "
+         "from the last two or three to its middle. Interval 40 quadratic is twice as close as 10 held."}}},
       {"initial",
        "The state at t = 0.",
        {{"type", "",

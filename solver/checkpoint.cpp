@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::array<char, 16> magic{'m', 'y', 'o', 'w', 'a', 'v',  'e',  ' ',
                                      's', 't', 'a', 't', 'e', '\r', '\n', 0x1a};
 
@@ -130,8 +130,11 @@ std::variant<std::string, FoundCheckpoint> read_checkpoint(const fs::path& path)
         header.version, format_version);
   if (header.byte_order != Header{}.byte_order)
     return std::string("it is from a machine of another byte order");
-  if (header.version < format_version || header.checksum != checksum_of(header))
-    return std::string("its header is damaged");
+  if (header.checksum != checksum_of(header)) return std::string("its header is damaged");
+  if (header.version < format_version)
+    return fmt::format(
+        "its format, {}, is older than this program's, {}: go on with the program that wrote it",
+        header.version, format_version);
   const std::array sizes{header.identity_size, header.mark_size, header.state_size};
   std::uint64_t body = 0;
   for (const auto size : sizes) {

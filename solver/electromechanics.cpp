@@ -165,6 +165,7 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const Execution& execut
   if (!scene.mechanics) return;
   const auto elements = make_elements(scene);
   gauss_tension_ = Mirrored<GaussTension<Space>>("myowave::solver::gauss_tension", elements.elements());
+  solved_nodes_ = SolvedNodes(elements, solves_of_metric(scene));
   nodes_ = Mirrored<Nodes<Space>>("myowave::solver::nodes", elements.nodes());
   element_areas_ =
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
@@ -187,7 +188,7 @@ template <class ExecutionSpace, class Real>
 bool Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
   const bool taken = finish_mechanics(t);
   begin_mechanics(t);
-  const bool at_once = !scene_.mechanics->overlap || !first_solve_taken_;
+  const bool at_once = !scene_.mechanics->overlap || solved_nodes_.empty();
   return at_once ? finish_mechanics(t) : taken;
 }
 
@@ -202,7 +203,9 @@ void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
     space_.fence("myowave::solver::begin_mechanics");
   }
   begun_ = BegunSolve{t, {}};
-  if (equilibrium_->is_solved_for(host_, gauss_tension_.host)) return;
+  // The first gives the run its nodes, however near its tension is to that of the rest state.
+  const double trigger = solved_nodes_.empty() ? 0 : scene_.mechanics->trigger;
+  if (equilibrium_->is_solved_for(host_, gauss_tension_.host, trigger)) return;
   // Deferred: it is solved where it is taken.
   const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
   begun_->report = std::async(policy, [this, t] {
@@ -223,13 +226,12 @@ bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
       add_to_statistics(begun.report.get());
     else
       ++statistics_->left_out;
-    first_solve_taken_ = true;
-    moved = take_nodes();
+    // The nodes of a solve that the trigger left out are those of an earlier time.
+    if (scene_.mechanics->trigger == 0 || equilibrium_->is_solved_for(host_, gauss_tension_.host))
+      moved = solved_nodes_.add(begun.t, equilibrium_->nodes());
   }
-  if (moved) {
-    refresh_metric(t);
-    measure_area();
-  }
+  if (place_nodes(t)) refresh_metric(t);
+  if (moved) measure_area();
   area_.t = begun.t;
   return true;
 }
@@ -247,11 +249,13 @@ void Electromechanics<ExecutionSpace, Real>::add_to_statistics(const SolveReport
 
 // Before the first solve they are all zero, which no sheet's are.
 template <class ExecutionSpace, class Real>
-bool Electromechanics<ExecutionSpace, Real>::take_nodes() {
-  const auto& solved = equilibrium_->nodes();
-  if (std::equal(solved.data(), solved.data() + solved.size(), nodes_.host.data())) return false;
-  Kokkos::deep_copy(host_, nodes_.host, solved);
-  host_.fence("myowave::solver::take_nodes");
+bool Electromechanics<ExecutionSpace, Real>::place_nodes(double t) {
+  const Timer timer(phases_->transfer);
+  const double middle = t + 0.5 * scene_.mechanics->interval * scene_.time.dt;
+  const auto& placed = solved_nodes_.at(middle);
+  if (std::equal(placed.data(), placed.data() + placed.size(), nodes_.host.data())) return false;
+  Kokkos::deep_copy(host_, nodes_.host, placed);
+  host_.fence("myowave::solver::place_nodes");
   return true;
 }
 
@@ -281,7 +285,7 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::measure_area() {
   const Timer timer(phases_->observe);
-  observe::element_areas(host_, equilibrium_->grid(), nodes_.host, element_areas_);
+  observe::element_areas(host_, equilibrium_->grid(), solved_nodes_.last(), element_areas_);
   host_.fence("myowave::solver::measure_area");
   const std::span<const double> areas(element_areas_.data(), element_areas_.size());
   area_ = {0, 0, areas[0] / rest_areas_[0], areas[0] / rest_areas_[0], 0};
@@ -552,12 +556,13 @@ void Electromechanics<ExecutionSpace, Real>::load(StateReader& reader, double t)
     solve.report = made.get_future().share();
   }
   if (begun) begun_ = std::move(solve);
-  if (first_solve_taken_) refresh_metric(t);
+  if (!solved_nodes_.empty()) refresh_metric(t);
 }
 
 template <class ExecutionSpace, class Real>
 std::vector<double> Electromechanics<ExecutionSpace, Real>::download_nodes() const {
-  return {nodes_.host.data(), nodes_.host.data() + nodes_.host.size()};
+  const auto& nodes = solved_nodes_.last();
+  return {nodes.data(), nodes.data() + nodes.size()};
 }
 
 template class Electromechanics<Kokkos::DefaultExecutionSpace, double>;

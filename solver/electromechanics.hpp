@@ -15,6 +15,7 @@
 #include "solver/area_sample.hpp"
 #include "solver/equilibrium.hpp"
 #include "solver/execution.hpp"
+#include "solver/extrapolation.hpp"
 #include "solver/run.hpp"
 #include "solver/select_model.hpp"
 #include "solver/stability.hpp"
@@ -56,9 +57,10 @@ class Electromechanics {
   // Steps between solves; 0 in a rigid sheet.
   int mechanics_interval() const;
 
-  // Equilibrium with the tension of now, then the metric. With mechanics.overlap: takes the solve
-  // begun by the call before, which it waits for, and begins the one with the tension of now; only
-  // the first is solved at once. True where nodes, metric and area() are new.
+  // Equilibrium with the tension of now, then the metric of the interval that begins. With
+  // mechanics.overlap: takes the solve begun by the call before, which it waits for, and begins the
+  // one with the tension of now; only the first is solved at once. True where nodes, metric and
+  // area() are new.
   // Errors: NumericalFailure, also where the new metric makes dt unstable and the scene takes no substeps.
   bool solve_mechanics(double t);
   // Takes the solve that is begun, if any. Returns and errors as above.
@@ -118,16 +120,16 @@ class Electromechanics {
  private:
   template <class Archive>
   void state(Archive& archive) {
-    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, active_, area_, activation_look_,
-            first_solve_taken_);
+    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, active_, area_, activation_look_);
     // Where rest is only near zero, what lies outside the box is read.
     if (scene_.quiescent > 0) archive(spare_.V, spare_.r, spare_.Ta);
     if (scene_.output.maps) archive(activation_.marks, activation_.records);
-    if (equilibrium_) archive(gauss_tension_.host, nodes_.host, element_areas_);
+    if (equilibrium_) archive(gauss_tension_.host, solved_nodes_, nodes_.host, element_areas_);
   }
   void begin_mechanics(double t);
   void add_to_statistics(const SolveReport&);
-  bool take_nodes();  // of the solve; true where one has moved
+  // To where conduction feels the nodes from t on; true where one has moved.
+  bool place_nodes(double t);
   // So many steps of this dt, the first at first * dt.
   void take_steps(std::int64_t first, std::int64_t count, double dt);
   // Steps without a stimulus, or one with those given; n is the row of the probes' record.
@@ -156,7 +158,8 @@ class Electromechanics {
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;
   Mirrored<GaussTension<Space>> gauss_tension_;
-  Mirrored<Nodes<Space>> nodes_;  // of the last solve taken
+  SolvedNodes solved_nodes_;      // of the solves taken
+  Mirrored<Nodes<Space>> nodes_;  // those that conduction feels
   Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
   AreaSample area_;
@@ -179,7 +182,6 @@ class Electromechanics {
     std::shared_future<SolveReport> report;  // none where the solve is left out
   };
   std::optional<Host> solver_space_;  // of solves on a thread of their own
-  bool first_solve_taken_ = false;
   // Last, so that its destructor waits for the solve before what it works on goes.
   std::optional<BegunSolve> begun_;
 };

@@ -128,7 +128,8 @@ PlannedPart mechanics(const Scene& scene, const Sizes& sizes) {
           : fmt::format("edge load p = {} kN/m ({})", m.p, m.load == Load::follower ? "follower" : "dead");
   const std::string solves =
       m.contraction
-          ? fmt::format("solved every {} steps where a tension has changed{}", m.interval,
+          ? fmt::format("solved every {} steps where a tension has changed{}{}", m.interval,
+                        m.trigger > 0 ? fmt::format(" by more than {} kPa", m.trigger) : "",
                         m.overlap ? ", while the next steps run: nodes and metric are one interval old" : "")
           : std::string("solved once, without contraction");
   const std::uint64_t vector = 2 * sizeof(double) * sizes.element_nodes;
@@ -141,8 +142,9 @@ PlannedPart mechanics(const Scene& scene, const Sizes& sizes) {
                           (scene.grid.rows - 1) / m.cells_per_element,
                           (scene.grid.columns - 1) / m.cells_per_element, load, solves),
       .why = "[mechanics]; nodes and areas are output",
-      // Nodes, those of Newton's iteration, tension and energy; element matrices and their sums.
-      .view_bytes = (copies + 6) * vector + (copies + 2) * tension + 3 * sizeof(double) * sizes.elements +
+      // Nodes that conduction feels, those of the last solve and of Newton's iteration, tension and
+      // energy; element matrices and their sums.
+      .view_bytes = (copies + 7) * vector + (copies + 2) * tension + 3 * sizeof(double) * sizes.elements +
                     elastic::linearization_entries * sizeof(double) * places +
                     elastic::NodalTangent::entries * sizeof(double) * sizes.element_nodes +
                     (sizeof(int) + sizeof(double)) * sizes.slots,
@@ -165,9 +167,14 @@ PlannedPart feedback(const Scene& scene, const Sizes& sizes) {
   const MetricForm form = metric_form(scene);
   part.active = form != MetricForm::none;
   if (part.active) {
-    part.what = "element nodes to the metric of the grid, where a node has moved";
-    part.why = "feedback.metric";
+    const std::size_t solves = solves_of_metric(scene);
+    part.what = fmt::format(
+        "element nodes{} to the metric of the grid, where a node has moved",
+        solves > 1 ? fmt::format(", extrapolated from {} solves to the middle of an interval,", solves) : "");
+    part.why = solves > 1 ? "feedback.metric, feedback.time" : "feedback.metric";
     if (form == MetricForm::conservative) part.view_bytes = 3 * sizes.padded_nodes * sizes.real;
+    // Those of the earlier solves, and where they lead.
+    if (solves > 1) part.view_bytes += solves * 2 * sizeof(double) * sizes.element_nodes;
   } else {
     part.why = scene.mechanics ? "feedback.metric = \"none\": conduction ignores the deformation"
                                : "the sheet is rigid";

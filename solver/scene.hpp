@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,6 +55,9 @@ struct TensionSettings {
 enum class Load { follower, dead };
 enum class Edges { load, fixed };
 enum class MetricForm { none, conservative, expanded };
+// Of the sheet whose metric holds from one solve to the next: the last solve's, or extrapolated from the last
+// two or three to the middle of the interval.
+enum class MetricTime { held, linear, quadratic };
 enum class Precision { float64, float32 };
 // Of the excitation, kernels/tissue/row_update.hpp.
 enum class Scheme { euler, split };
@@ -73,6 +77,7 @@ struct MechanicsSettings {
   double tolerance = 1e-8;  // max|R_free| / (10 kPa h)
   bool contraction = true;  // false: Ta does not load the mechanics
   bool overlap = false;     // solve while the next interval runs, with a metric one interval older
+  double trigger = 0;       // kPa; solve only where Ta has moved by more at a Gauss point
 };
 
 struct Stimulus {
@@ -135,6 +140,7 @@ struct Scene {
   TensionSettings tension;
   std::optional<MechanicsSettings> mechanics;    // empty: rigid
   MetricForm metric = MetricForm::conservative;  // no effect without mechanics
+  MetricTime metric_time = MetricTime::held;
   InitialSettings initial;
   std::vector<Stimulus> stimuli;
   Precision precision = Precision::float64;
@@ -159,6 +165,12 @@ inline bool has_element_areas(const Scene& scene) { return scene.mechanics && sc
 // The form of the diffusion term.
 inline MetricForm metric_form(const Scene& scene) {
   return scene.mechanics ? scene.metric : MetricForm::none;
+}
+
+// Solves whose nodes make the metric of an interval; nodes that stay where they are need no more than one.
+inline std::size_t solves_of_metric(const Scene& scene) {
+  const bool moves = contracts(scene) && metric_form(scene) != MetricForm::none;
+  return moves ? 1 + static_cast<std::size_t>(scene.metric_time) : 1;
 }
 
 }  // namespace myowave::solver

@@ -109,16 +109,17 @@ void mix_tension(const Space& space, const GaussTension<typename Space::memory_s
       });
 }
 
-// Whether both are the same to the bit at every Gauss point; what is not a number never is.
+// Whether one is within `distance` (kPa) of the other at every Gauss point, with 0 the same to the bit; what
+// is not a number never is.
 template <class Space>
-bool same_tension(const Space& space, const GaussTension<typename Space::memory_space>& one,
-                  const GaussTension<typename Space::memory_space>& other) {
+bool near_tension(const Space& space, const GaussTension<typename Space::memory_space>& one,
+                  const GaussTension<typename Space::memory_space>& other, double distance) {
   int different = 0;
   Kokkos::parallel_reduce(
-      "myowave::elastic::same_tension", detail::range(space, static_cast<int>(one.extent(0))),
+      "myowave::elastic::near_tension", detail::range(space, static_cast<int>(one.extent(0))),
       KOKKOS_LAMBDA(int e, int& count) {
         for (int q = 0; q < gauss_points; ++q)
-          if (!(one(e, q) == other(e, q))) ++count;
+          if (!(one(e, q) >= other(e, q) - distance && one(e, q) <= other(e, q) + distance)) ++count;
       },
       different);
   return different == 0;

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+
 #include "solver/error.hpp"
 #include "solver/run.hpp"
 #include "tests/support/plain_sheet.hpp"
@@ -28,20 +31,37 @@ solver::Scene overlapping(int steps) {
   return scene;
 }
 
-TEST(Overlap, IsTheMetricOfOneIntervalBeforeToTheBit) {
-  const solver::Scene scene = overlapping(6 * interval + interval / 2);
+class OverlapOf : public ::testing::TestWithParam<solver::MetricTime> {};
+
+TEST_P(OverlapOf, IsTheMetricOfOneIntervalBeforeToTheBit) {
+  constexpr int steps = 6 * interval + interval / 2;
+  solver::Scene scene = overlapping(steps);
+  scene.metric_time = GetParam();
+  scene.time.dt = 1.0 / 64;  // sums of its multiples are exact in whatever order
+  scene.time.t_end = steps * scene.time.dt;
+  scene.output.every = scene.time.t_end;
   const test::RecordedRun result = test::recorded_run(scene);
   const PlainSheet plain(scene, solver::make_initial_state(scene));
   EXPECT_EQ(result.state.V, test::to_values(plain.V));
   EXPECT_EQ(result.state.r, test::to_values(plain.r));
   EXPECT_EQ(result.state.Ta, test::to_values(plain.Ta));
-  // What is shown is the sheet that conduction feels.
+  // What is shown is the sheet as it was solved, wherever conduction feels it.
   EXPECT_EQ(result.sink.nodes, plain.nodes);
 
   solver::Scene held = scene;
   held.mechanics->overlap = false;
   EXPECT_NE(test::recorded_run(held).state.V, result.state.V);
 }
+
+std::string time_name(const ::testing::TestParamInfo<solver::MetricTime>& info) {
+  constexpr std::array names{"held", "linear", "quadratic"};
+  return names[static_cast<std::size_t>(info.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Times, OverlapOf,
+                         ::testing::Values(solver::MetricTime::held, solver::MetricTime::linear,
+                                           solver::MetricTime::quadratic),
+                         time_name);
 
 TEST(Overlap, TheSameRunTwiceIsTheSameToTheBit) {
   const solver::Scene scene = overlapping(5 * interval);

@@ -144,12 +144,14 @@ struct StillCase {
   int solves;
 };
 
-class StillSheet : public ::testing::TestWithParam<std::tuple<StillCase, MetricForm, bool>> {};
+class StillSheet
+    : public ::testing::TestWithParam<std::tuple<StillCase, MetricForm, bool, solver::MetricTime>> {};
 
 TEST_P(StillSheet, IsNotSolvedAgainAndIsTheSameToTheBit) {
-  const auto& [still, metric, overlap] = GetParam();
+  const auto& [still, metric, overlap, time] = GetParam();
   Scene scene = deforming_front();
   scene.metric = metric;
+  scene.metric_time = time;
   scene.mechanics->overlap = overlap;
   still.change(scene);
   const auto initial = tense_front(scene);
@@ -176,14 +178,15 @@ INSTANTIATE_TEST_SUITE_P(
                                     1},
                           StillCase{"unfelt", [](Scene& s) { s.mechanics->contraction = false; }, 0}),
         ::testing::Values(MetricForm::none, MetricForm::conservative, MetricForm::expanded),
-        ::testing::Bool()),
+        ::testing::Bool(), ::testing::Values(solver::MetricTime::held, solver::MetricTime::quadratic)),
     [](const auto& one) {
       const auto metric = std::get<1>(one.param);
       return std::string(std::get<0>(one.param).name) +
              (metric == MetricForm::none       ? "_none"
               : metric == MetricForm::expanded ? "_expanded"
                                                : "_conservative") +
-             (std::get<2>(one.param) ? "_overlap" : "");
+             (std::get<2>(one.param) ? "_overlap" : "") +
+             (std::get<3>(one.param) == solver::MetricTime::held ? "" : "_quadratic");
     });
 
 // The steps of a wave that begins later: solves are left out until Ta moves, then none is.
@@ -241,9 +244,9 @@ std::vector<std::filesystem::path> shipped_scenes() {
 // A few intervals of each shipped scene, as it is and in other variants.
 TEST(Plan, CountsTheBytesThatKokkosAllocates) {
   for (const auto& file : shipped_scenes()) {
-    for (const char* variant :
-         {"accuracy.on_unstable=substep", "mechanics.on=false", "feedback.metric=expanded",
-          "feedback.metric=none", "accuracy.precision=float32", "output.maps=true"}) {
+    for (const char* variant : {"accuracy.on_unstable=substep", "mechanics.on=false",
+                                "feedback.metric=expanded", "feedback.metric=none", "feedback.time=quadratic",
+                                "accuracy.precision=float32", "output.maps=true"}) {
       Scene scene = apps::read_scene(file, {variant});
       scene.initial = {};
       scene.initial.type = solver::InitialSettings::Type::broken_front;

@@ -17,6 +17,7 @@ namespace myowave {
 namespace {
 
 using solver::MetricForm;
+using solver::MetricTime;
 using testing_support::all_close;
 
 constexpr int rows = 21, columns = 33, steps = 200;
@@ -81,6 +82,9 @@ void expect_product_is_reference(const solver::Scene& scene) {
   EXPECT_TRUE(all_close(actual.r, expected.fields.r, columns, {.absolute = 1e-12}));
   EXPECT_TRUE(all_close(actual.Ta, expected.fields.Ta, columns, {.absolute = 1e-10}));
   EXPECT_TRUE(all_close(sink.nodes, expected.nodes, 2, {.absolute = 1e-10}));
+  if (!scene.mechanics || !scene.mechanics->overlap) {  // else one more, which nothing feels
+    EXPECT_EQ(summary.mechanics.solves, expected.solves);
+  }
 }
 
 TEST(ReferenceCoupled, Rigid) { expect_product_is_reference(rigid_scene()); }
@@ -137,6 +141,42 @@ TEST(ReferenceCoupled, IntervalThatDoesNotDivideTheRun) {
   solver::Scene scene = coupled_scene();
   scene.mechanics->interval = 27;
   expect_product_is_reference(scene);
+}
+
+class BetweenSolves : public ::testing::TestWithParam<std::tuple<MetricTime, bool, double>> {};
+
+TEST_P(BetweenSolves, IsTheReference) {
+  solver::Scene scene = coupled_scene();
+  std::tie(scene.metric_time, scene.mechanics->overlap, scene.mechanics->trigger) = GetParam();
+  scene.mechanics->interval = 10;
+  expect_product_is_reference(scene);
+}
+
+std::string between_name(const ::testing::TestParamInfo<BetweenSolves::ParamType>& info) {
+  const auto& [time, overlap, trigger] = info.param;
+  const std::string name = time == MetricTime::held     ? "held"
+                           : time == MetricTime::linear ? "linear"
+                                                        : "quadratic";
+  return name + (overlap ? "_overlap" : "") + (trigger > 0 ? "_trigger" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(ReferenceCoupled, BetweenSolves,
+                         ::testing::Combine(::testing::Values(MetricTime::held, MetricTime::linear,
+                                                              MetricTime::quadratic),
+                                            ::testing::Bool(), ::testing::Values(0.0, 3.0)),
+                         between_name);
+
+TEST(ReferenceCoupled, ATriggerLeavesOutSolvesWhileTheTensionHardlyMoves) {
+  solver::Scene scene = coupled_scene();
+  scene.mechanics->interval = 10;
+  const auto solves = [&](double trigger) {
+    scene.mechanics->trigger = trigger;
+    return reference::run(scene, broken_front(), steps).solves;
+  };
+  EXPECT_EQ(solves(0), 21);
+  EXPECT_GT(solves(3), 4);
+  EXPECT_LT(solves(3), 15);
+  EXPECT_EQ(solves(100), 1);
 }
 
 class EveryCoupling : public ::testing::TestWithParam<std::tuple<MetricForm, solver::Load, std::string>> {};

@@ -9,6 +9,7 @@
 #include "kernels/transfer/tension_to_gauss.hpp"
 #include "solver/denormals.hpp"
 #include "solver/equilibrium.hpp"
+#include "solver/extrapolation.hpp"
 #include "solver/run.hpp"
 #include "solver/select_model.hpp"
 #include "tests/support/fields.hpp"
@@ -19,7 +20,7 @@ struct PlainSheet {
   using Host = Kokkos::DefaultHostExecutionSpace;
   using View = EnsembleField<double, MemorySpace>;
   View V, V_next, r, Ta;
-  Values nodes;  // the metric's: with mechanics.overlap those of one interval before, the first its own
+  Values nodes;  // with mechanics.overlap those of one interval before, the first its own
 
   PlainSheet(const solver::Scene& scene, const solver::InitialState& state)
       : V(to_view<double>(state.rows, state.columns, {state.V})),
@@ -45,19 +46,23 @@ struct PlainSheet {
     solver::Equilibrium<Host> equilibrium(host, elements, mechanics);
     const GaussTension<MemorySpace> tension("tension", elements.elements());
     const auto tension_host = Kokkos::create_mirror_view(tension);
-    const Nodes<MemorySpace> now("nodes", elements.nodes()), felt("nodes felt", elements.nodes());
+    const Nodes<MemorySpace> felt("nodes felt", elements.nodes());
+    const Nodes<Kokkos::HostSpace> now("nodes", elements.nodes());
+    solver::SolvedNodes solved(elements, solver::solves_of_metric(scene));
     equilibrium.solve(host, tension_host, 0);  // the loaded rest state
 
     const auto steps = std::llround(scene.time.t_end / scene.time.dt);
     for (std::int64_t step = 0; step <= steps; ++step) {
+      const auto t = [&](std::int64_t at) { return static_cast<double>(at) * scene.time.dt; };
       if (step % mechanics.interval == 0) {
         if (mechanics.contraction)
           transfer::tension_to_gauss<ExecutionSpace, double>(space, elements, sheet.cells, Ta, 0, tension);
         Kokkos::deep_copy(tension_host, tension);
+        if (mechanics.overlap && step > mechanics.interval) solved.add(t(step - mechanics.interval), now);
         equilibrium.solve(host, tension_host, 0);
-        Kokkos::deep_copy(felt, now);
         Kokkos::deep_copy(now, equilibrium.nodes());
-        if (step == 0 || !mechanics.overlap) Kokkos::deep_copy(felt, now);
+        if (step == 0 || !mechanics.overlap) solved.add(t(step), now);
+        Kokkos::deep_copy(felt, solved.at(t(step) + 0.5 * mechanics.interval * scene.time.dt));
         if constexpr (requires { form.transfer; })
           form.transfer.refresh(space, felt, form.diffusion.metric, 0);
       }
@@ -65,8 +70,7 @@ struct PlainSheet {
       tissue::monodomain_step(space, form.diffusion, model, scene.time.dt, V, r, Ta, V_next);
       std::swap(V, V_next);
     }
-    const auto metric_nodes = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, felt);
-    nodes.assign(metric_nodes.data(), metric_nodes.data() + metric_nodes.size());
+    nodes.assign(solved.last().data(), solved.last().data() + solved.last().size());
   }
 };
 

@@ -37,6 +37,7 @@ class RandomScene {
     if (draw_.chance(0.2)) scene_.set("accuracy", "quiescent", draw_.chance(0.5) ? "0" : "1e-15");
     observation();
     if (draw_.chance(0.3)) scene_.set("time", "stop_on", draw_.one_of(ends));
+    between_solves();
     return std::move(scene_);
   }
 
@@ -45,6 +46,7 @@ class RandomScene {
   inline static const std::vector<std::string> ends{"[]", "['breakup']", "['death']", "['death', 'breakup']"};
   inline static const std::vector<std::string> metrics{"'none'", "'conservative'", "'conservative'",
                                                        "'expanded'"};
+  inline static const std::vector<std::string> metric_times{"'held'", "'linear'", "'quadratic'"};
 
   // With some probability a value other than the default.
   double maybe(const std::string& section, const std::string& key, double usual, double low, double high,
@@ -234,12 +236,19 @@ class RandomScene {
     if (draw_.chance(0.3)) flag("output", "tension", 0.5);
   }
 
-  // Drawn last: a key that is added here leaves the rest of each seed's scene as it is.
+  // Drawn last, with those of between_solves(): a key that is added there leaves the rest of each seed's
+  // scene as it is.
   void observation() {
     maybe("output", "from", 0, 0, 1.1 * steps_ * dt_, 0.2);
     for (const char* key : {"element_areas", "maps"})
       if (draw_.chance(0.2)) flag("output", key, 0.7);
     maybe("output", "checkpoint_every", 0, 0, 1.1 * steps_ * dt_, 0.2);
+  }
+
+  void between_solves() {
+    if (draw_.chance(deforms_ ? 0.5 : 0.1)) scene_.set("feedback", "time", draw_.one_of(metric_times));
+    if (deforms_ && draw_.chance(0.3))
+      scene_.set("mechanics", "trigger", text_of(rounded(draw_.log_number(1e-6, 20))));
   }
 
   Draw draw_;

@@ -1,8 +1,11 @@
 #include "tests/support/reference_coupled.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace myowave::reference {
 namespace {
@@ -41,6 +44,44 @@ bool is_inside(const Stimulus& s, int i, int j) {
   return false;
 }
 
+struct Solve {
+  double t;
+  Values nodes;
+};
+
+double largest_difference(const Values& a, const Values& b) {
+  double largest = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, std::abs(a[n] - b[n]));
+  return largest;
+}
+
+// The polynomial through the last `count` solves at t, by Lagrange's formula.
+Values extrapolated(const std::vector<Solve>& solves, std::size_t count, double t) {
+  Values nodes(solves.back().nodes.size());
+  for (std::size_t n = solves.size() - count; n < solves.size(); ++n) {
+    double weight = 1;
+    for (std::size_t m = solves.size() - count; m < solves.size(); ++m)
+      if (m != n) weight *= (t - solves[m].t) / (solves[n].t - solves[m].t);
+    for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] += weight * solves[n].nodes[k];
+  }
+  return nodes;
+}
+
+// At most one and a half spacings of the last two solves past the last; of fewer solves where a corner is
+// turned.
+Values metric_nodes(const Scene& scene, const std::vector<Solve>& solves, double t) {
+  if (solves.size() > 1) {
+    const double last = solves.back().t, before = solves[solves.size() - 2].t;
+    t = std::min(t, last + 1.5 * (last - before));
+  }
+  for (std::size_t count = std::min(solves.size(), 1 + static_cast<std::size_t>(scene.metric_time));
+       count > 1; --count) {
+    const Values nodes = extrapolated(solves, count, t);
+    if (smallest_corner_J(mesh_of(scene), nodes) > 0) return nodes;
+  }
+  return solves.back().nodes;
+}
+
 }  // namespace
 
 Values stimulus(const Scene& scene, double t) {
@@ -62,23 +103,47 @@ Values diffusion(const Scene& scene, const Values& nodes, const Values& V) {
 
 CoupledState run(const Scene& scene, const ExcitationState& initial, int steps) {
   CoupledState state{initial, {}};
+  const double dt = scene.time.dt;
+  Values equilibrium, solved_Ta, felt;
+  std::vector<Solve> taken;
+  std::optional<Solve> begun;
   const auto solve = [&](const Values& Ta) {
-    const Mesh mesh = mesh_of(scene);
-    state.nodes =
-        solve_equilibrium(mesh, *scene.mechanics, tension_to_gauss(mesh, grid_of(scene), Ta), state.nodes);
+    equilibrium = solve_equilibrium(mesh_of(scene), *scene.mechanics, Ta, equilibrium);
+    solved_Ta = Ta;
   };
-  const Values no_tension(initial.Ta.size());
+  // The equilibrium at t; none where the tension has hardly moved.
+  const auto begin = [&](double t) -> std::optional<Solve> {
+    const Values no_tension(initial.Ta.size());
+    const Values Ta = tension_to_gauss(mesh_of(scene), grid_of(scene),
+                                       scene.mechanics->contraction ? state.fields.Ta : no_tension);
+    const double moved = largest_difference(Ta, solved_Ta);
+    if (moved > 0 && !taken.empty() && moved <= scene.mechanics->trigger) return std::nullopt;
+    if (moved > 0) {
+      solve(Ta);
+      ++state.solves;
+    }
+    return Solve{t, equilibrium};
+  };
+  const auto take = [&] {
+    if (begun) taken.push_back(*begun);
+    begun.reset();
+  };
   if (scene.mechanics) {
-    state.nodes = undeformed(mesh_of(scene));
-    solve(no_tension);
+    equilibrium = undeformed(mesh_of(scene));
+    solve(Values(4 * static_cast<std::size_t>(mesh_of(scene).elements())));
   }
   for (int step = 0;; ++step) {
-    if (scene.mechanics && step % scene.mechanics->interval == 0)
-      solve(scene.mechanics->contraction ? state.fields.Ta : no_tension);
+    const double t = step * dt;
+    if (scene.mechanics && step % scene.mechanics->interval == 0) {
+      take();
+      begun = begin(t);
+      if (!scene.mechanics->overlap || taken.empty()) take();
+      state.nodes = taken.back().nodes;
+      felt = metric_nodes(scene, taken, t + 0.5 * scene.mechanics->interval * dt);
+    }
     if (step == steps) return state;
-    state.fields =
-        euler_step(scene.excitation, scene.tension, scene.time.dt, state.fields,
-                   diffusion(scene, state.nodes, state.fields.V), stimulus(scene, step * scene.time.dt));
+    state.fields = euler_step(scene.excitation, scene.tension, dt, state.fields,
+                              diffusion(scene, felt, state.fields.V), stimulus(scene, t));
   }
 }
 

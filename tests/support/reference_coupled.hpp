@@ -8,7 +8,8 @@ namespace myowave::reference {
 
 struct CoupledState {
   ExcitationState fields;
-  Values nodes;  // of the last solve; empty in a rigid run
+  Values nodes;    // of the last solve that conduction feels; empty in a rigid run
+  int solves = 0;  // made after that of the rest state
 };
 
 // I_s at every node at time t.
