@@ -18,8 +18,7 @@ struct Preset {
   std::span<const PresetValue> values;
 };
 
-// In the order of solver::Preset, the first of which is none. Their errors are measured at grid.dx = 0.6
-// (README.md, "Speed against accuracy").
+// In the order of solver::Preset, the first of which is none. Made for grid.dx = 0.6.
 std::span<const Preset> presets();
 
 // Null where there is none of this name.

@@ -312,11 +312,8 @@ std::vector<Section> make_schema() {
       {"accuracy",
        "What the numbers are kept in, what happens where they go wrong, and what counts as zero.",
        {{"preset", "", preset(),
-         "Accuracy by one word: time.dt, and of accuracy, feedback, mechanics and output what it takes. What "
-         "the "
-         "scene names itself stays, and a preset given by --set changes it; README.md shows what each costs "
-         "and "
-         "how far off it is."},
+         "Accuracy by one word, for grid.dx = 0.6: time.dt, and of accuracy, feedback, mechanics and output "
+         "what it takes. What the scene names itself stays; a preset given by --set changes it."},
         {"precision", "", choice({"float64", "float32"}, MYOWAVE_AT(scene.precision)),
          "Of V, r and Ta. The mechanics is always float64."},
         {"scheme", "", choice({"euler", "split"}, MYOWAVE_AT(scene.scheme)),

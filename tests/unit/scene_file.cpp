@@ -194,6 +194,20 @@ TEST(scene_file, set_takes_bare_and_quoted_strings_arrays_and_tables) {
 
 TEST(scene_file, the_last_set_wins) { EXPECT_EQ(scene("grid.n = 5", {"grid.n=7", "grid.n=9"}).grid.rows, 9); }
 
+TEST(scene_file, a_preset_leaves_what_the_scene_names_and_set_changes_it) {
+  const Scene fast = scene("accuracy.preset = 'fast'\ntime.dt = 0.05");
+  EXPECT_EQ(fast.preset, solver::Preset::fast);
+  EXPECT_EQ(fast.scheme, solver::Scheme::split);
+  EXPECT_EQ(fast.precision, solver::Precision::float32);
+  EXPECT_EQ(fast.time.dt, 0.05);
+  EXPECT_FALSE(fast.mechanics.has_value());
+  const Scene paper = scene("[time]\ndt = 0.05\n[mechanics]\ninterval = 20", {"accuracy.preset=paper"});
+  EXPECT_EQ(paper.time.dt, 0.02);
+  EXPECT_EQ(paper.mechanics->interval, 80);
+  EXPECT_EQ(scene("[mechanics]", {"accuracy.preset=balanced", "mechanics.interval=7"}).mechanics->interval,
+            7);
+}
+
 TEST(scene_file, set_of_the_type_forgives_keys_of_the_file_for_another) {
   const Scene made = scene("[initial]\ntype = 'broken_front'\nwidth = 7", {"initial.type=rest"});
   EXPECT_EQ(made.initial.type, solver::InitialSettings::Type::rest);
