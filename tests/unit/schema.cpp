@@ -50,7 +50,7 @@ std::string other_value(const Key& key) {
   if (key.name == "count") return "0";
   if (key.name == "duration") return "2.5";
   if (key.name == "period") return "33.5";
-  if (key.name == "every" || key.name == "tips_every" || key.name == "probes_every") return "0.5";
+  if (key.name.ends_with("every") && key.name != "checkpoint_every") return "0.5";
   if (key.name == "dt") return "0.01";
   if (key.name == "tolerance" || key.name == "quiescent") return "1e-6";
   if (std::holds_alternative<apps::Number>(key.kind)) return key.name == "a" ? "0.25" : "1.25";
