@@ -228,7 +228,8 @@ std::vector<Section> make_schema() {
          "`none`: conduction ignores the deformation."},
         {"time", "", choice({"held", "linear", "quadratic"}, MYOWAVE_AT(scene.metric_time)),
          "Whose deformation an interval feels: `held`: the last solve's; `linear`, `quadratic`: extrapolated "
-         "from the last two or three to its middle. Interval 40 quadratic is twice as close as 10 held."}}},
+         "from the last two or three to its middle. Interval 40 quadratic is three times closer than 10 "
+         "held."}}},
       {"initial",
        "The state at t = 0.",
        {{"type", "",
