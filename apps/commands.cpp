@@ -23,6 +23,7 @@
 #include "apps/memory.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/reproduce.hpp"
+#include "apps/resample.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/scene_source.hpp"
@@ -206,7 +207,8 @@ void check(const std::string& file, const std::vector<std::string>& overrides) {
   const solver::Scene scene = load(read_source(file, overrides));
   const solver::InitialSettings& initial = scene.initial;
   if (initial.type == solver::InitialSettings::Type::file) {
-    read_state(initial.file, scene.grid.rows, scene.grid.columns, initial.window);
+    const solver::GridSettings sheet = grid_of_start(scene);
+    read_state(initial.file, sheet.rows, sheet.columns, initial.window);
   }
   fmt::print("{}: valid\n", file);
   const solver::Plan plan = solver::make_plan(scene);

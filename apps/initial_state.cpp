@@ -10,6 +10,7 @@
 #include <optional>
 #include <random>
 
+#include "apps/resample.hpp"
 #include "apps/signals.hpp"
 #include "apps/state_cache.hpp"
 #include "solver/error.hpp"
@@ -98,6 +99,11 @@ solver::Scene scene_to_settle(const solver::Scene& scene) {
                                    : settling_scene(scene.grid.rows, scene.grid.columns);
 }
 
+solver::Scene on_grid_of_start(solver::Scene scene) {
+  scene.grid = grid_of_start(scene);
+  return scene;
+}
+
 InitialState settle(const solver::Scene& scene, solver::OutputSink& progress) {
   const std::string text = definition(scene);
   return cached_state(cached_state_path("settled_spiral", text), text, [&] {
@@ -145,15 +151,15 @@ void add_noise(std::vector<double>& V, double sd, std::uint64_t seed) {
 }  // namespace
 
 void require_settled_spiral(const solver::Scene& scene) {
-  const auto& [rows, columns, dx] = scene.grid;
+  const auto [rows, columns, dx] = grid_of_start(scene);
   if (dx != solver::GridSettings{}.dx) {
-    throw InputError(
-        fmt::format("initial.type = \"settled_spiral\" is defined at grid.dx = {}, not {}: a spiral of "
-                    "another dx starts from \"broken_front\" or a \"file\"",
-                    solver::GridSettings{}.dx, dx));
+    throw InputError(fmt::format(
+        "initial.type = \"settled_spiral\" is defined at grid.dx = {0}, not {1}: set initial.dx = {0} "
+        "for one that is interpolated, or start from \"broken_front\" or a \"file\"",
+        solver::GridSettings{}.dx, dx));
   }
   const auto [column_offset, row_offset] = scene.initial.core_offset;
-  if ((column_offset != 0 || row_offset != 0) && !window_of_protocol(scene)) {
+  if ((column_offset != 0 || row_offset != 0) && !window_of_protocol(on_grid_of_start(scene))) {
     throw InputError(fmt::format(
         "initial.core_offset = [{}, {}]: a window of {} x {} nodes with the core there leaves "
         "the settled sheet of {} x {} (core at row {}, column {})",
@@ -163,14 +169,19 @@ void require_settled_spiral(const solver::Scene& scene) {
 
 std::optional<solver::Scene> spiral_to_settle(const solver::Scene& scene) {
   if (scene.initial.type != solver::InitialSettings::Type::settled_spiral) return std::nullopt;
-  solver::Scene settling = scene_to_settle(scene);
+  solver::Scene settling = scene_to_settle(on_grid_of_start(scene));
   const bool there = std::filesystem::exists(cached_state_path("settled_spiral", definition(settling)));
   return there ? std::nullopt : std::optional(std::move(settling));
 }
 
 InitialState resolve_initial_state(const solver::Scene& scene, solver::OutputSink& progress) {
-  InitialState state = from_type(scene, progress);
+  const solver::Scene on_start = on_grid_of_start(scene);
+  InitialState state = from_type(on_start, progress);
   if (scene.initial.noise > 0) add_noise(state.V, scene.initial.noise, scene.initial.seed);
+  if (on_start.grid.dx == scene.grid.dx) return state;
+  for (auto field : {&InitialState::V, &InitialState::r, &InitialState::Ta})
+    state.*field = resample(state.*field, on_start.grid, scene.grid);
+  state.rows = scene.grid.rows, state.columns = scene.grid.columns;
   return state;
 }
 

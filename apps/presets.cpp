@@ -45,17 +45,20 @@ constexpr std::array balanced{
 };
 
 constexpr std::array reference{
-    PresetValue{"time.dt", "0.02"},
+    PresetValue{"time.dt", "0.0125"},
     PresetValue{"accuracy.precision", "\"float64\""},
     PresetValue{"accuracy.scheme", "\"split\""},
     PresetValue{"output.watch_every", "0.2"},
     PresetValue{"feedback.time", "\"quadratic\"", Sheet::elastic},
-    PresetValue{"mechanics.interval", "10", Sheet::elastic},
+    PresetValue{"mechanics.interval", "16", Sheet::elastic},
     PresetValue{"mechanics.tolerance", "1e-10", Sheet::elastic},
 };
 
-constexpr std::array<Preset, 5> all{
-    {{"none", {}}, {"paper", paper}, {"fast", fast}, {"balanced", balanced}, {"reference", reference}}};
+constexpr std::array<Preset, 5> all{{{"none", 0, {}},
+                                     {"paper", 0.6, paper},
+                                     {"fast", 1, fast},
+                                     {"balanced", 0.75, balanced},
+                                     {"reference", 0.3, reference}}};
 
 }  // namespace
 

@@ -15,10 +15,11 @@ struct PresetValue {
 
 struct Preset {
   std::string_view name;
+  double dx;  // accuracy.dx, which its time.dt is for; 0: any
   std::span<const PresetValue> values;
 };
 
-// In the order of solver::Preset, the first of which is none. Made for grid.dx = 0.6.
+// In the order of solver::Preset, the first of which is none.
 std::span<const Preset> presets();
 
 // Null where there is none of this name.

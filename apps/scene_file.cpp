@@ -13,6 +13,7 @@
 
 #include "apps/initial_state.hpp"
 #include "apps/presets.hpp"
+#include "apps/resample.hpp"
 #include "apps/scene_tables.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
@@ -23,6 +24,8 @@ namespace {
 
 using solver::InputError;
 using solver::Scene;
+
+constexpr std::string_view preset_key = "accuracy.preset";
 
 // What a value of this kind has to be, in words.
 std::string requirement(const Key& key) {
@@ -40,6 +43,11 @@ std::string requirement(const Key& key) {
     text = type_text(key.kind) + (range.empty() ? "" : ", each " + range);
   }
   return key.unit.empty() ? text : fmt::format("{} ({})", text, key.unit);
+}
+
+bool is_from_preset(const toml::node& node) {
+  const auto& origin = node.source().path;
+  return origin && *origin == std::string(override_mark) + std::string(preset_key);
 }
 
 std::optional<double> number_in(const toml::node& node, const Range& range) {
@@ -76,7 +84,8 @@ class SceneReader {
   Scene read() {
     read_root();
     sheet_known_ = fine({"grid.n"});
-    check_representable();
+    const double spacing = check_spacing();
+    check_representable(spacing);
     check_time();
     check_tension("tension", scene_.tension);
     check_mechanics();
@@ -85,6 +94,7 @@ class SceneReader {
     check_preconditions();
     check_stimuli();
     check_output();
+    move_to_spacing(scene_, spacing);
     return std::move(scene_);
   }
 
@@ -401,7 +411,7 @@ class SceneReader {
   }
 
   // A step adds dt times what it divides by dx^2: 0 or infinity there would be a run of nothing.
-  void check_representable() {
+  void check_representable(double spacing) {
     const bool single = scene_.precision == solver::Precision::float32;
     const double smallest = single ? std::numeric_limits<float>::min() : std::numeric_limits<double>::min();
     const double largest = single ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
@@ -413,6 +423,30 @@ class SceneReader {
     };
     check("time.dt", scene_.time.dt, "dt", scene_.time.dt);
     check("grid.dx", scene_.grid.dx, "1/dx^2", 1 / (scene_.grid.dx * scene_.grid.dx));
+    if (spacing != scene_.grid.dx) check("accuracy.dx", scene_.dx, "1/dx^2", 1 / (spacing * spacing));
+  }
+
+  // The run's spacing; a preset's dt, which is for its own, follows it.
+  double check_spacing() {
+    if (!sheet_known_ || !fine({"grid.dx", "accuracy.dx", "mechanics.cells_per_element"}))
+      return scene_.grid.dx;
+    const double spacing = spacing_of_run(scene_);
+    constexpr double most_nodes = 1e7;  // as grid.n
+    const double side = std::max(scene_.grid.rows - 1, scene_.grid.columns - 1) * scene_.grid.dx;
+    if (!(side / spacing < most_nodes)) {
+      conflict({"accuracy.dx"},
+               fmt::format("accuracy.dx = {} puts {:.2g} nodes along a side of {:g} length units; at "
+                           "most {:g} are allowed: set it to {:.2g} or more",
+                           scene_.dx, side / spacing, side, most_nodes, side / most_nodes));
+      return scene_.grid.dx;
+    }
+    const auto dt = given_.find("time.dt");
+    const Preset& preset = presets()[static_cast<std::size_t>(scene_.preset)];
+    if (preset.dx > 0 && dt != given_.end() && is_from_preset(*dt->second)) {
+      const double finer = preset.dx / spacing, diffusivity = scene_.excitation.D / scene_.excitation.C_m;
+      scene_.time.dt /= std::max(1.0, std::ceil(finer * finer * diffusivity - 1e-6));
+    }
+    return spacing;
   }
 
   void check_time() {
@@ -497,11 +531,20 @@ class SceneReader {
     const std::string_view type = types[static_cast<std::size_t>(initial.type)];
     check_unused(section, type);
     if (initial.type == solver::InitialSettings::Type::file) check_file();
-    if (!sheet_known_) return;
+    if (!sheet_known_ || !fine({"grid.dx", "initial.dx"})) return;
+    if (initial.dx > 0 && !divides_sheet(scene_.grid, initial.dx)) {
+      conflict(
+          {"initial.dx"},
+          fmt::format("initial.dx = {}: the sides of the sheet ({:g} and {:g} length units) are no whole "
+                      "numbers of it",
+                      initial.dx, (scene_.grid.columns - 1) * scene_.grid.dx,
+                      (scene_.grid.rows - 1) * scene_.grid.dx));
+      return;
+    }
     using Type = solver::InitialSettings::Type;
     if (initial.type == Type::broken_front)
       check_inside("initial.offset", "the end of the front", initial.offset);
-    if (initial.type == Type::settled_spiral && fine({"grid.dx"}) &&
+    if (initial.type == Type::settled_spiral &&
         check_inside("initial.core_offset", "the core", initial.core_offset)) {
       check_settled_spiral();
     }
@@ -511,8 +554,11 @@ class SceneReader {
     try {
       require_settled_spiral(scene_);
     } catch (const InputError& error) {
-      const bool own_dx = scene_.grid.dx != solver::GridSettings{}.dx;
-      conflict({own_dx ? "grid.dx" : "initial.core_offset"}, error.what());
+      const bool own_dx = grid_of_start(scene_).dx != solver::GridSettings{}.dx;
+      if (own_dx)
+        conflict({"initial.dx", "grid.dx"}, error.what());
+      else
+        conflict({"initial.core_offset"}, error.what());
     }
   }
 
@@ -552,16 +598,17 @@ class SceneReader {
   // `offset` [columns, rows] from the middle of the sheet.
   bool check_inside(const std::string& path, std::string_view what, const std::array<int, 2>& offset) {
     if (!fine({path})) return false;
-    const std::int64_t column = (scene_.grid.columns - 1) / 2 + std::int64_t{offset[0]};
-    const std::int64_t row = (scene_.grid.rows - 1) / 2 + std::int64_t{offset[1]};
-    if (column >= 0 && column < scene_.grid.columns && row >= 0 && row < scene_.grid.rows) return true;
+    const solver::GridSettings sheet = grid_of_start(scene_);
+    const std::int64_t column = (sheet.columns - 1) / 2 + std::int64_t{offset[0]};
+    const std::int64_t row = (sheet.rows - 1) / 2 + std::int64_t{offset[1]};
+    if (column >= 0 && column < sheet.columns && row >= 0 && row < sheet.rows) return true;
     conflict({path}, fmt::format("{} = [{}, {}] puts {} at column {}, row {}, outside of the sheet ({})",
-                                 path, offset[0], offset[1], what, column, row, sheet_text()));
+                                 path, offset[0], offset[1], what, column, row, sheet_text(sheet)));
     return false;
   }
 
-  std::string sheet_text() const {
-    return fmt::format("columns 0 to {}, rows 0 to {}", scene_.grid.columns - 1, scene_.grid.rows - 1);
+  static std::string sheet_text(const solver::GridSettings& sheet) {
+    return fmt::format("columns 0 to {}, rows 0 to {}", sheet.columns - 1, sheet.rows - 1);
   }
 
   void check_preconditions() {
@@ -617,14 +664,15 @@ class SceneReader {
                              path, one.columns[0], one.columns[1], one.rows[0], one.rows[1]));
       } else if (outside(one.columns, columns) || outside(one.rows, rows)) {
         conflict({path}, fmt::format("{}: columns = [{}, {}], rows = [{}, {}] leave the sheet ({})", path,
-                                     one.columns[0], one.columns[1], one.rows[0], one.rows[1], sheet_text()));
+                                     one.columns[0], one.columns[1], one.rows[0], one.rows[1],
+                                     sheet_text(scene_.grid)));
       }
     }
     if (one.shape == Shape::disc) {
       const auto& [x, y] = one.center;
       if (!(x >= 0 && x <= columns - 1 && y >= 0 && y <= rows - 1)) {
         conflict({path}, fmt::format("{}: center = [{}, {}] (column, row) is outside of the sheet ({})", path,
-                                     x, y, sheet_text()));
+                                     x, y, sheet_text(scene_.grid)));
       } else if (std::hypot(x - std::round(x), y - std::round(y)) > one.radius) {
         conflict({path}, fmt::format("{}: no node lies within radius = {} of center = [{}, {}]", path,
                                      one.radius, x, y));
@@ -653,7 +701,7 @@ class SceneReader {
       if (row >= 0 && row < rows && column >= 0 && column < columns) continue;
       conflict({"output.probes"},
                fmt::format("output.probes: [{}, {}] (row, column) is outside of the sheet ({})", row, column,
-                           sheet_text()));
+                           sheet_text(scene_.grid)));
     }
   }
 
@@ -808,19 +856,23 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
   }
 }
 
-constexpr std::string_view preset_key = "accuracy.preset";
-
-// The preset in force and whether an override gives it: then it changes what the file names.
-void apply_preset(toml::table& root, bool over_the_file) {
-  const Preset* const preset = find_preset(root.at_path(preset_key).value_or(std::string_view()));
+// What the scene names itself stays, but a preset of an override changes the file's values.
+void apply_preset(toml::table& root) {
+  const toml::node* const chosen = root.at_path(preset_key).node();
+  const Preset* const preset =
+      chosen == nullptr ? nullptr : find_preset(chosen->value_or(std::string_view()));
   if (preset == nullptr) return;
+  const bool over_the_file = is_override(chosen->source());
   const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
-  for (const auto& [key, value, sheet] : preset->values) {
-    if (sheet != PresetValue::Sheet::any && (sheet == PresetValue::Sheet::elastic) != elastic) continue;
-    if (root.at_path(key) && !over_the_file) continue;
-    const std::string path(key);
-    merge(root, override_table(path, std::string(value), std::string(preset_key)), split(path));
-  }
+  const auto give = [&](const std::string& key, const std::string& value) {
+    const toml::node* const named = root.at_path(key).node();
+    if (named != nullptr && (!over_the_file || is_override(named->source()))) return;
+    merge(root, override_table(key, value, std::string(preset_key)), split(key));
+  };
+  if (preset->dx > 0) give("accuracy.dx", fmt::format("{}", preset->dx));
+  for (const auto& [key, value, sheet] : preset->values)
+    if (sheet == PresetValue::Sheet::any || (sheet == PresetValue::Sheet::elastic) == elastic)
+      give(std::string(key), std::string(value));
 }
 
 }  // namespace
@@ -828,14 +880,7 @@ void apply_preset(toml::table& root, bool over_the_file) {
 Scene read_tables(toml::table root, const std::filesystem::path& file,
                   const std::vector<std::string>& overrides, Problems& problems) {
   for (const std::string& one : overrides) apply_override(root, one, problems);
-  const toml::node* const preset = root.at_path(preset_key).node();
-  if (preset != nullptr && is_override(preset->source())) {
-    apply_preset(root, true);
-    Problems told_before("");
-    for (const std::string& one : overrides) apply_override(root, one, told_before);
-  } else {
-    apply_preset(root, false);
-  }
+  apply_preset(root);
   return SceneReader(root, file, problems).read();
 }
 

@@ -237,6 +237,10 @@ std::vector<Section> make_schema() {
          "`rest`; `broken_front`: a front that ends in the middle and curls; `settled_spiral`: one spiral "
          "after "
          "1080 t.u., computed once and cached; `file`: V, r and, where there, Ta of an HDF5 file."},
+        {"dx", "length units", number(MYOWAVE_AT(scene.initial.dx), not_negative),
+         "Node spacing of the grid that the start is made on and interpolated from, in whose nodes the keys "
+         "of "
+         "this section are; it divides the sides of the sheet. 0: grid.dx."},
         {.name = "width",
          .unit = "nodes",
          .kind = number(MYOWAVE_AT(scene.initial.width), {.low = 1}),
@@ -313,8 +317,12 @@ std::vector<Section> make_schema() {
       {"accuracy",
        "What the numbers are kept in, what happens where they go wrong, and what counts as zero.",
        {{"preset", "", preset(),
-         "Accuracy by one word, for grid.dx = 0.6: time.dt, and of accuracy, feedback, mechanics and output "
-         "what it takes. What the scene names itself stays; a preset given by --set changes it."},
+         "Accuracy by one word: time.dt, and of accuracy, feedback, mechanics and output what it takes. What "
+         "the scene names itself stays; a preset given by --set changes it."},
+        {"dx", "length units", number(MYOWAVE_AT(scene.dx), not_negative),
+         "The run takes the largest node spacing up to this that divides the elements, or the sides of a "
+         "rigid "
+         "sheet. What the scene counts in nodes is on the grid of grid.dx all the same. 0: grid.dx."},
         {"precision", "", choice({"float64", "float32"}, MYOWAVE_AT(scene.precision)),
          "Of V, r and Ta. The mechanics is always float64."},
         {"scheme", "", choice({"euler", "split"}, MYOWAVE_AT(scene.scheme)),

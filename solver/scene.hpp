@@ -105,6 +105,7 @@ struct Precondition {
 struct InitialSettings {
   enum class Type { rest, broken_front, settled_spiral, file };
   Type type = Type::rest;
+  double dx = 0;  // length units, of the grid that it is made on; 0: the run's
   double width = 5;
   double r0 = 1.5;
   std::array<int, 2> offset{0, 0};           // [columns, rows]
@@ -134,7 +135,7 @@ struct OutputSettings {
 
 struct Scene {
   std::string name;
-  GridSettings grid;
+  GridSettings grid;  // of the run
   TimeSettings time;
   ExcitationSettings excitation;
   TensionSettings tension;
@@ -143,6 +144,7 @@ struct Scene {
   MetricTime metric_time = MetricTime::held;
   InitialSettings initial;
   std::vector<Stimulus> stimuli;
+  double dx = 0;  // length units, largest node spacing that the grid was fitted to; 0: the sheet's own
   Precision precision = Precision::float64;
   Scheme scheme = Scheme::euler;
   Preset preset = Preset::none;

@@ -61,7 +61,6 @@ class ConservativeTransfer {
     const auto elements = elements_;
     const int cells = cells_;
     const auto G11 = G11_, G22 = G22_, sqrt_C = sqrt_C_;
-    const auto diagonal = metric.diagonal, antidiagonal = metric.antidiagonal;
     const double width = 1.0 / cells;
     DeformationBounds bounds;
     Kokkos::parallel_reduce(
@@ -82,9 +81,9 @@ class ConservativeTransfer {
             const double half_G12 = -0.5 * C.m12 * inverse_J;
             G11(i + 1, j + 1) = Real(C.m22 * inverse_J - 2 * twist);
             G22(i + 1, j + 1) = Real(C.m11 * inverse_J - 2 * twist);
-            diagonal(m, i + 1, j + 1) = Real(twist + half_G12);
+            metric.diagonal(m, i + 1, j + 1) = Real(twist + half_G12);
             if constexpr (stencil == tissue::Stencil::nine_point)
-              antidiagonal(m, i + 1, j + 1) = Real(twist - half_G12);
+              metric.antidiagonal(m, i + 1, j + 1) = Real(twist - half_G12);
             sqrt_C(i + 1, j + 1) = Real(det_F);
             max_trace = Kokkos::max(max_trace, trace(C) * inverse_J * inverse_J);
             max_stiffness = Kokkos::max(max_stiffness, cell_stiffness<stencil>(C, det_F));

@@ -52,7 +52,8 @@ const BadScene bad_scenes[] = {
     {"key_of_another_section", "[grid]\nmu1 = 3",
      ":2:1: unknown key \"mu1\" in [grid]; it is a key of [excitation]"},
     {"unknown_key_far", "[accuracy]\n  speed = 3",
-     ":2:3: unknown key \"speed\" in [accuracy]; keys: precision, on_unstable, quiescent"},
+     ":2:3: unknown key \"speed\" in [accuracy]; keys: preset, dx, precision, scheme, on_unstable, "
+     "quiescent"},
     {"unknown_key_of_a_precondition", "[[initial.precondition]]\nduration = 3\nmu3 = 1",
      ":3:1: unknown key \"mu3\" in [initial.precondition.0]; did you mean \"mu1\"?"},
     {"unknown_key_of_a_stimulus", "[[stimulus]]\namplitude = 1\n[[stimulus]]\namplitude = 1\nradius = 2",
@@ -148,9 +149,17 @@ const BadScene bad_scenes[] = {
      "(columns 0 to 30, "
      "rows 0 to 30)"},
     {"settled_spiral_of_another_dx", "[grid]\ndx = 0.3\n[initial]\ntype = 'settled_spiral'",
-     ":2:6: initial.type = \"settled_spiral\" is defined at grid.dx = 0.6, not 0.3: a spiral of another dx "
-     "starts from "
-     "\"broken_front\" or a \"file\""},
+     ":2:6: initial.type = \"settled_spiral\" is defined at grid.dx = 0.6, not 0.3: set initial.dx = 0.6 for "
+     "one that is interpolated, or start from \"broken_front\" or a \"file\""},
+    {"grid_of_the_start_does_not_fit", "[grid]\nn = 31\n[initial]\ndx = 0.7",
+     ":4:6: initial.dx = 0.7: the sides of the sheet (18 and 18 length units) are no whole numbers of it"},
+    {"more_nodes_than_can_be_counted", "[accuracy]\ndx = 1e-9",
+     ":2:6: accuracy.dx = 1e-09 puts 1.5e+11 nodes along a side of 150 length units; at most 1e+07 are "
+     "allowed: "
+     "set it to 1.5e-05 or more"},
+    {"spacing_whose_square_is_no_float32",
+     "[grid]\nn = 2\ndx = 1e-14\n[accuracy]\nprecision = 'float32'\ndx = 1e-20",
+     ":6:6: accuracy.dx = 1e-20: 1/dx^2 = 1e+40 is outside of float32 (1.2e-38 to 3.4e+38)"},
     {"core_that_the_settled_sheet_lacks", "[initial]\ntype = 'settled_spiral'\ncore_offset = [9, 0]",
      ":3:15: initial.core_offset = [9, 0]: a window of 251 x 251 nodes with the core there leaves the "
      "settled sheet of 251 "

@@ -38,6 +38,7 @@ class RandomScene {
     observation();
     if (draw_.chance(0.3)) scene_.set("time", "stop_on", draw_.one_of(ends));
     between_solves();
+    accuracy();
     return std::move(scene_);
   }
 
@@ -46,6 +47,9 @@ class RandomScene {
   inline static const std::vector<std::string> ends{"[]", "['breakup']", "['death']", "['death', 'breakup']"};
   inline static const std::vector<std::string> metrics{"'none'", "'conservative'", "'conservative'",
                                                        "'expanded'"};
+  inline static const std::vector<std::string> schemes{"'euler'", "'split'"};
+  inline static const std::vector<std::string> presets{"'none'", "'paper'", "'fast'", "'balanced'",
+                                                       "'reference'"};
   inline static const std::vector<std::string> metric_times{"'held'", "'linear'", "'quadratic'"};
 
   // With some probability a value other than the default.
@@ -86,7 +90,7 @@ class RandomScene {
     dx_ = 0.6;
     if (draw_.chance(0.5)) scene_.set("grid", "dx", text_of(dx_ = rounded(draw_.log_number(0.1, 3))));
     if (deforms_) mechanics(cells);
-    if (draw_.chance(deforms_ ? 0.7 : 0.1)) scene_.set("feedback", "metric", draw_.one_of(metrics));
+    if (draw_.chance(deforms_ ? 0.7 : 0.1)) scene_.set("feedback", "metric", metric_ = draw_.one_of(metrics));
   }
 
   void mechanics(int cells) {
@@ -236,8 +240,8 @@ class RandomScene {
     if (draw_.chance(0.3)) flag("output", "tension", 0.5);
   }
 
-  // Drawn last, with those of between_solves(): a key that is added there leaves the rest of each seed's
-  // scene as it is.
+  // Drawn last, with those of between_solves() and accuracy(): a key that is added there leaves the rest of
+  // each seed's scene as it is.
   void observation() {
     maybe("output", "from", 0, 0, 1.1 * steps_ * dt_, 0.2);
     for (const char* key : {"element_areas", "maps"})
@@ -251,8 +255,23 @@ class RandomScene {
       scene_.set("mechanics", "trigger", text_of(rounded(draw_.log_number(1e-6, 20))));
   }
 
+  void accuracy() {
+    const bool expanded = metric_ == "'expanded'";
+    if (!expanded && draw_.chance(0.4)) scene_.set("accuracy", "scheme", draw_.one_of(schemes));
+    // dt is the scene's own, for its own spacing.
+    if (!expanded && draw_.chance(0.2)) {
+      scene_.set("accuracy", "preset", draw_.one_of(presets));
+      scene_.set("accuracy", "dx", "0");
+    } else if (draw_.chance(0.2)) {
+      scene_.set("accuracy", "dx", text_of(rounded(dx_ * draw_.number(1, 3))));
+    }
+    if (draw_.chance(0.2)) scene_.set("initial", "dx", text_of(dx_ / draw_.integer(1, 3)));
+    if (draw_.chance(0.3)) scene_.set("output", "watch_every", text_of(rounded(draw_.number(0.01, 1))));
+  }
+
   Draw draw_;
   SceneText scene_;
+  std::string metric_;
   int rows_ = 0, columns_ = 0, steps_ = 0;
   bool deforms_ = false, contracts_ = false, own_eps0_ = false;
   double a_ = 0, k_ = 0, mu2_ = 0, C_m_ = 0, D_ = 0, dx_ = 0, dt_ = 0;

@@ -1,12 +1,16 @@
 // What a scene file means, once it is right. What it may not say: tests/faults/bad_scenes.cpp.
 #include "apps/scene_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "apps/memory.hpp"
+#include "apps/schema.hpp"
 #include "solver/error.hpp"
 #include "solver/run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -206,6 +210,67 @@ TEST(scene_file, a_preset_leaves_what_the_scene_names_and_set_changes_it) {
   EXPECT_EQ(paper.mechanics->interval, 80);
   EXPECT_EQ(scene("[mechanics]", {"accuracy.preset=balanced", "mechanics.interval=7"}).mechanics->interval,
             7);
+}
+
+TEST(scene_file, another_spacing_leaves_the_sheet_as_large) {
+  const std::string text = R"(
+[grid]
+n = [101, 251]
+[mechanics]
+[output]
+probes = [[50, 125], [100, 250]]
+[[stimulus]]
+amplitude = 1
+region = {center = [125, 50], radius = 5}
+[[stimulus]]
+amplitude = 1
+region = {columns = [0, 10]}
+)";
+  const Scene coarse = scene(text, {"accuracy.dx=1"});
+  EXPECT_EQ(coarse.grid.dx, 1.0);
+  EXPECT_EQ(coarse.grid.rows, 61);
+  EXPECT_EQ(coarse.grid.columns, 151);
+  EXPECT_EQ(coarse.mechanics->cells_per_element, 6);
+  EXPECT_EQ(coarse.output.probes, (std::vector<std::array<int, 2>>{{30, 75}, {60, 150}}));
+  EXPECT_EQ(coarse.stimuli[0].center, (std::array{75.0, 30.0}));
+  EXPECT_EQ(coarse.stimuli[0].radius, 3.0);
+  EXPECT_EQ(coarse.stimuli[1].columns, (std::array{0, 6}));
+  EXPECT_EQ(coarse.stimuli[1].rows, (std::array{0, 60}));
+  EXPECT_EQ(coarse.initial.dx, 0.6);
+  // Nothing moves where the sheet has that spacing already.
+  EXPECT_EQ(apps::effective_configuration(scene(text, {"accuracy.dx=0.6"}))["grid"],
+            apps::effective_configuration(scene(text))["grid"]);
+}
+
+TEST(scene_file, the_spacing_is_the_largest_up_to_that_which_fits) {
+  const auto spacing = [](const std::string& text, double dx) {
+    return scene(text, {fmt::format("accuracy.dx={}", dx)}).grid.dx;
+  };
+  EXPECT_DOUBLE_EQ(spacing("mechanics.cells_per_element = 10", 0.8), 0.75);
+  EXPECT_DOUBLE_EQ(spacing("mechanics.cells_per_element = 10", 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(spacing("mechanics.cells_per_element = 1", 1), 0.6);
+  EXPECT_DOUBLE_EQ(spacing("grid.n = 128", 1), 127 * 0.6 / 77);
+  EXPECT_DOUBLE_EQ(spacing("grid.n = [101, 251]", 0.9), 30.0 / 34);
+}
+
+TEST(scene_file, what_a_scene_on_another_spacing_says_of_itself_is_that_scene) {
+  const auto configuration = apps::effective_configuration(
+      scene("[mechanics]\n[initial]\ntype = 'settled_spiral'", {"accuracy.dx=0.8"}));
+  std::string text;
+  for (const auto& [section, keys] : configuration.items())
+    for (const auto& [key, value] : keys.items())
+      text += fmt::format("{}.{} = {}\n", section, key, value.dump());
+  EXPECT_EQ(apps::effective_configuration(scene(text)), configuration);
+}
+
+TEST(scene_file, the_step_of_a_preset_follows_the_spacing) {
+  const Scene usual = scene("accuracy.preset = 'fast'"),
+              finer = scene("accuracy.preset = 'fast'", {"accuracy.dx=0.6"});
+  EXPECT_EQ(usual.grid.dx, 1);
+  EXPECT_LE(finer.time.dt / (0.6 * 0.6), usual.time.dt / (usual.grid.dx * usual.grid.dx) * (1 + 1e-12));
+  EXPECT_EQ(std::round(usual.time.dt / finer.time.dt), usual.time.dt / finer.time.dt);
+  EXPECT_EQ(scene("accuracy.preset = 'fast'\ntime.dt = 0.03", {"accuracy.dx=0.6"}).time.dt, 0.03);
+  EXPECT_EQ(scene("accuracy.preset = 'fast'\nexcitation.D = 2").time.dt, usual.time.dt / 2);
 }
 
 TEST(scene_file, set_of_the_type_forgives_keys_of_the_file_for_another) {
