@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "apps/resample.hpp"
 #include "solver/error.hpp"
 #include "solver/plan.hpp"
 
@@ -29,7 +30,12 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 void require_memory(const solver::Scene& scene) {
-  const std::uint64_t needed = solver::memory_bytes(scene);
+  std::uint64_t needed = solver::memory_bytes(scene);
+  if (scene.initial.dx > 0) {
+    const solver::GridSettings start = grid_of_start(scene);
+    needed += 3 * sizeof(double) * static_cast<std::uint64_t>(start.rows) *
+              static_cast<std::uint64_t>(start.columns);
+  }
   const std::optional<std::uint64_t> free = free_memory();
   if (!free || needed <= *free) return;
   throw solver::InputError(

@@ -9,6 +9,7 @@ namespace {
 using Sheet = PresetValue::Sheet;
 
 constexpr std::array paper{
+    PresetValue{"accuracy.dx", "0.6"},
     PresetValue{"time.dt", "0.02"},
     PresetValue{"accuracy.precision", "\"float64\""},
     PresetValue{"accuracy.scheme", "\"euler\""},
@@ -18,33 +19,44 @@ constexpr std::array paper{
     PresetValue{"mechanics.tolerance", "1e-8", Sheet::elastic},
 };
 
-// dt near dx^2 / (6 D), where the split scheme's errors go; on a contracting sheet, whose nodes come closer,
-// what is stable there.
-constexpr std::array fast{
-    PresetValue{"time.dt", "0.1", Sheet::rigid},
-    PresetValue{"time.dt", "0.05", Sheet::elastic},
+// `first` and then `second`.
+template <std::size_t N, std::size_t M>
+constexpr std::array<PresetValue, N + M> joined(const std::array<PresetValue, N>& first,
+                                                const std::array<PresetValue, M>& second) {
+  std::array<PresetValue, N + M> result{};
+  std::ranges::copy(first, result.begin());
+  std::ranges::copy(second, result.begin() + N);
+  return result;
+}
+
+constexpr std::array large_steps{
     PresetValue{"accuracy.precision", "\"float32\""},
     PresetValue{"accuracy.scheme", "\"split\""},
     PresetValue{"accuracy.on_unstable", "\"substep\"", Sheet::elastic},
     PresetValue{"output.watch_every", "1.0"},
     PresetValue{"feedback.time", "\"quadratic\"", Sheet::elastic},
-    PresetValue{"mechanics.interval", "60", Sheet::elastic},
-    PresetValue{"mechanics.tolerance", "1e-4", Sheet::elastic},
 };
 
-constexpr std::array balanced{
-    PresetValue{"time.dt", "0.1", Sheet::rigid},
-    PresetValue{"time.dt", "0.05", Sheet::elastic},
-    PresetValue{"accuracy.precision", "\"float32\""},
-    PresetValue{"accuracy.scheme", "\"split\""},
-    PresetValue{"accuracy.on_unstable", "\"substep\"", Sheet::elastic},
-    PresetValue{"output.watch_every", "1.0"},
-    PresetValue{"feedback.time", "\"quadratic\"", Sheet::elastic},
-    PresetValue{"mechanics.interval", "32", Sheet::elastic},
-    PresetValue{"mechanics.tolerance", "1e-5", Sheet::elastic},
-};
+// dt near dx^2 / (6 D), where the errors of the split scheme go, with the dx that a front sees: of a
+// contracting sheet it runs into what is stretched.
+constexpr auto fast = joined(large_steps, std::array{
+                                              PresetValue{"accuracy.dx", "1", Sheet::rigid},
+                                              PresetValue{"time.dt", "0.2", Sheet::rigid},
+                                              PresetValue{"accuracy.dx", "0.75", Sheet::elastic},
+                                              PresetValue{"time.dt", "0.1", Sheet::elastic},
+                                              PresetValue{"mechanics.interval", "24", Sheet::elastic},
+                                              PresetValue{"mechanics.tolerance", "1e-3", Sheet::elastic},
+                                          });
+
+constexpr auto balanced = joined(large_steps, std::array{
+                                                  PresetValue{"accuracy.dx", "0.75"},
+                                                  PresetValue{"time.dt", "0.1"},
+                                                  PresetValue{"mechanics.interval", "16", Sheet::elastic},
+                                                  PresetValue{"mechanics.tolerance", "1e-4", Sheet::elastic},
+                                              });
 
 constexpr std::array reference{
+    PresetValue{"accuracy.dx", "0.3"},
     PresetValue{"time.dt", "0.0125"},
     PresetValue{"accuracy.precision", "\"float64\""},
     PresetValue{"accuracy.scheme", "\"split\""},
@@ -54,11 +66,8 @@ constexpr std::array reference{
     PresetValue{"mechanics.tolerance", "1e-10", Sheet::elastic},
 };
 
-constexpr std::array<Preset, 5> all{{{"none", 0, {}},
-                                     {"paper", 0.6, paper},
-                                     {"fast", 1, fast},
-                                     {"balanced", 0.75, balanced},
-                                     {"reference", 0.3, reference}}};
+constexpr std::array<Preset, 5> all{
+    {{"none", {}}, {"paper", paper}, {"fast", fast}, {"balanced", balanced}, {"reference", reference}}};
 
 }  // namespace
 
@@ -67,6 +76,12 @@ std::span<const Preset> presets() { return all; }
 const Preset* find_preset(std::string_view name) {
   const auto found = std::ranges::find(all, name, &Preset::name);
   return found == all.end() ? nullptr : &*found;
+}
+
+const PresetValue* find_value(const Preset& preset, std::string_view key, bool elastic) {
+  const auto found = std::ranges::find_if(
+      preset.values, [&](const PresetValue& value) { return value.key == key && value.holds(elastic); });
+  return found == preset.values.end() ? nullptr : &*found;
 }
 
 }  // namespace myowave::apps

@@ -11,11 +11,14 @@ struct PresetValue {
   std::string_view key;    // "time.dt"
   std::string_view value;  // as TOML
   Sheet sheet = Sheet::any;
+
+  constexpr bool holds(bool elastic) const {
+    return sheet == Sheet::any || (sheet == Sheet::elastic) == elastic;
+  }
 };
 
 struct Preset {
   std::string_view name;
-  double dx;  // accuracy.dx, which its time.dt is for; 0: any
   std::span<const PresetValue> values;
 };
 
@@ -24,5 +27,8 @@ std::span<const Preset> presets();
 
 // Null where there is none of this name.
 const Preset* find_preset(std::string_view name);
+
+// What it gives the key on an elastic or a rigid sheet; null for nothing.
+const PresetValue* find_value(const Preset&, std::string_view key, bool elastic);
 
 }  // namespace myowave::apps

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <optional>
@@ -400,14 +401,19 @@ class SceneReader {
 
   // Reports at the first of the paths that the scene gives, one of --set before one of the file.
   void conflict(std::initializer_list<std::string> paths, const std::string& message) {
-    const toml::node* place = nullptr;
+    const toml::source_region* place = nullptr;
     for (const std::string& path : paths) {
       const auto found = given_.find(path);
       if (found == given_.end()) continue;
-      if (place == nullptr || (is_override(found->second->source()) && !is_override(place->source())))
-        place = found->second;
+      const toml::source_region& here = source_of(*found->second);
+      if (place == nullptr || (is_override(here) && !is_override(*place))) place = &here;
     }
-    problems_.add(place == nullptr ? toml::source_region{} : place->source(), message);
+    problems_.add(place == nullptr ? toml::source_region{} : *place, message);
+  }
+
+  // Of a preset's value the place of the preset.
+  const toml::source_region& source_of(const toml::node& node) const {
+    return is_from_preset(node) ? root_.at_path(preset_key).node()->source() : node.source();
   }
 
   // A step adds dt times what it divides by dx^2: 0 or infinity there would be a run of nothing.
@@ -431,22 +437,32 @@ class SceneReader {
     if (!sheet_known_ || !fine({"grid.dx", "accuracy.dx", "mechanics.cells_per_element"}))
       return scene_.grid.dx;
     const double spacing = spacing_of_run(scene_);
+    if (!check_node_count("accuracy.dx", scene_.dx, spacing)) return scene_.grid.dx;
+    const auto dt = given_.find("time.dt");
+    if (dt != given_.end() && is_from_preset(*dt->second)) scene_.time.dt /= steps_of_preset(spacing);
+    return spacing;
+  }
+
+  // Of a spacing that the key at the path gives: false, and told, where a side has more nodes than can be
+  // counted.
+  bool check_node_count(const std::string& path, double given, double spacing) {
     constexpr double most_nodes = 1e7;  // as grid.n
     const double side = std::max(scene_.grid.rows - 1, scene_.grid.columns - 1) * scene_.grid.dx;
-    if (!(side / spacing < most_nodes)) {
-      conflict({"accuracy.dx"},
-               fmt::format("accuracy.dx = {} puts {:.2g} nodes along a side of {:g} length units; at "
-                           "most {:g} are allowed: set it to {:.2g} or more",
-                           scene_.dx, side / spacing, side, most_nodes, side / most_nodes));
-      return scene_.grid.dx;
-    }
-    const auto dt = given_.find("time.dt");
+    if (side / spacing < most_nodes) return true;
+    conflict(
+        {path},
+        fmt::format("{} = {} puts {:.2g} nodes along a side of {:g} length units; at most {:g} are allowed: "
+                    "set it to {:.2g} or more",
+                    path, given, side / spacing, side, most_nodes, side / most_nodes));
+    return false;
+  }
+
+  // The steps of a spacing in one of the preset's, whose dt is for its own spacing and D = C_m.
+  double steps_of_preset(double spacing) const {
     const Preset& preset = presets()[static_cast<std::size_t>(scene_.preset)];
-    if (preset.dx > 0 && dt != given_.end() && is_from_preset(*dt->second)) {
-      const double finer = preset.dx / spacing, diffusivity = scene_.excitation.D / scene_.excitation.C_m;
-      scene_.time.dt /= std::max(1.0, std::ceil(finer * finer * diffusivity - 1e-6));
-    }
-    return spacing;
+    const PresetValue& dx = *find_value(preset, "accuracy.dx", scene_.mechanics.has_value());
+    const double finer = std::strtod(std::string(dx.value).c_str(), nullptr) / spacing;
+    return std::max(1.0, std::ceil(finer * finer * scene_.excitation.D / scene_.excitation.C_m - 1e-6));
   }
 
   void check_time() {
@@ -532,6 +548,7 @@ class SceneReader {
     check_unused(section, type);
     if (initial.type == solver::InitialSettings::Type::file) check_file();
     if (!sheet_known_ || !fine({"grid.dx", "initial.dx"})) return;
+    if (initial.dx > 0 && !check_node_count("initial.dx", initial.dx, initial.dx)) return;
     if (initial.dx > 0 && !divides_sheet(scene_.grid, initial.dx)) {
       conflict(
           {"initial.dx"},
@@ -865,14 +882,15 @@ void apply_preset(toml::table& root) {
   const bool over_the_file = is_override(chosen->source());
   const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
   const auto give = [&](const std::string& key, const std::string& value) {
+    // What is no table is told of when it is read.
+    const toml::node* const section = root.get(key.substr(0, key.find('.')));
+    if (section != nullptr && !section->is_table()) return;
     const toml::node* const named = root.at_path(key).node();
     if (named != nullptr && (!over_the_file || is_override(named->source()))) return;
     merge(root, override_table(key, value, std::string(preset_key)), split(key));
   };
-  if (preset->dx > 0) give("accuracy.dx", fmt::format("{}", preset->dx));
-  for (const auto& [key, value, sheet] : preset->values)
-    if (sheet == PresetValue::Sheet::any || (sheet == PresetValue::Sheet::elastic) == elastic)
-      give(std::string(key), std::string(value));
+  for (const PresetValue& one : preset->values)
+    if (one.holds(elastic)) give(std::string(one.key), std::string(one.value));
 }
 
 }  // namespace

@@ -153,6 +153,12 @@ const BadScene bad_scenes[] = {
      "one that is interpolated, or start from \"broken_front\" or a \"file\""},
     {"grid_of_the_start_does_not_fit", "[grid]\nn = 31\n[initial]\ndx = 0.7",
      ":4:6: initial.dx = 0.7: the sides of the sheet (18 and 18 length units) are no whole numbers of it"},
+    {"more_nodes_of_the_start_than_can_be_counted", "[initial]\ndx = 1e-9",
+     ":2:6: initial.dx = 1e-09 puts 1.5e+11 nodes along a side of 150 length units; at most 1e+07 are "
+     "allowed: "
+     "set it to 1.5e-05 or more"},
+    {"value_of_a_preset", "[accuracy]\npreset = 'fast'\n[output]\nevery = 0.5",
+     ":4:9: output.every = 0.5 is not a multiple of time.dt = 0.2; the nearest are 0.4 and 0.6"},
     {"more_nodes_than_can_be_counted", "[accuracy]\ndx = 1e-9",
      ":2:6: accuracy.dx = 1e-09 puts 1.5e+11 nodes along a side of 150 length units; at most 1e+07 are "
      "allowed: "

@@ -315,6 +315,8 @@ BadScene deep_nesting(Draw& draw, SceneText scene) {
 // ---- values that do not go together -----------------------------------------------------------------------
 
 BadScene contradiction(Draw& draw, SceneText scene) {
+  scene.set("initial", "dx", "0");  // so that all keys are in nodes of one grid
+  scene.set("accuracy", "dx", "0");
   const solver::Scene valid = apps::parse_scene(scene.text(), file_name);
   const double dt = valid.time.dt;
   const int columns = valid.grid.columns, rows = valid.grid.rows, n = draw.integer(0, 40);

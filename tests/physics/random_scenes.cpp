@@ -30,6 +30,8 @@ std::optional<StateBox> bounds_of(const Scene& scene, const InitialState& initia
     stage.stimuli.clear();
     box.advance(stage, steps_of(one.duration, scene), 1);
   }
+  // An explicit step of the whole; the split one's half step may overshoot it.
+  if (scene.scheme == solver::Scheme::split) return std::nullopt;
   double stretch = 1;
   if (scene.mechanics && scene.metric != solver::MetricForm::none) {
     if (scene.mechanics->contraction) return std::nullopt;
