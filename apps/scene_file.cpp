@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 #include "apps/initial_state.hpp"
@@ -856,23 +857,57 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
   }
 }
 
+struct PresetKey {
+  std::string key, value;
+};
+
+// What the chosen preset gives on this scene; a preset of an override goes before the file's values.
+struct ChosenPreset {
+  std::vector<PresetKey> values;
+  bool over_the_file = false;
+
+  explicit ChosenPreset(const toml::table& root) {
+    const toml::node* const chosen = root.at_path(preset_key).node();
+    const Preset* const preset =
+        chosen == nullptr ? nullptr : find_preset(chosen->value_or(std::string_view()));
+    if (preset == nullptr) return;
+    over_the_file = is_override(chosen->source());
+    const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
+    if (preset->dx > 0) values.push_back({"accuracy.dx", fmt::format("{}", preset->dx)});
+    for (const auto& [key, value, sheet] : preset->values)
+      if (sheet == PresetValue::Sheet::any || (sheet == PresetValue::Sheet::elastic) == elastic)
+        values.push_back({std::string(key), std::string(value)});
+  }
+};
+
 // What the scene names itself stays, but a preset of an override changes the file's values.
 void apply_preset(toml::table& root) {
-  const toml::node* const chosen = root.at_path(preset_key).node();
-  const Preset* const preset =
-      chosen == nullptr ? nullptr : find_preset(chosen->value_or(std::string_view()));
-  if (preset == nullptr) return;
-  const bool over_the_file = is_override(chosen->source());
-  const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
-  const auto give = [&](const std::string& key, const std::string& value) {
+  const ChosenPreset preset(root);
+  for (const auto& [key, value] : preset.values) {
     const toml::node* const named = root.at_path(key).node();
-    if (named != nullptr && (!over_the_file || is_override(named->source()))) return;
+    if (named != nullptr && (!preset.over_the_file || is_override(named->source()))) continue;
     merge(root, override_table(key, value, std::string(preset_key)), split(key));
-  };
-  if (preset->dx > 0) give("accuracy.dx", fmt::format("{}", preset->dx));
-  for (const auto& [key, value, sheet] : preset->values)
-    if (sheet == PresetValue::Sheet::any || (sheet == PresetValue::Sheet::elastic) == elastic)
-      give(std::string(key), std::string(value));
+  }
+}
+
+// Leaves out what a preset of an override changes, so that the preset gives it where it stands in the file.
+void leave_to_preset(toml::table& root) {
+  const ChosenPreset preset(root);
+  for (const auto& [key, value] : preset.values) {
+    const toml::node* const named = root.at_path(key).node();
+    if (named == nullptr || !preset.over_the_file || is_override(named->source())) continue;
+    const auto path = split(key);
+    root.get_as<toml::table>(path.front())->erase(path.back());
+  }
+}
+
+// From any folder the same.
+void make_state_file_absolute(toml::table& root, const std::filesystem::path& folder) {
+  auto* const initial = root.get_as<toml::table>("initial");
+  auto* const file = initial == nullptr ? nullptr : initial->get_as<std::string>("file");
+  if (file == nullptr) return;
+  const std::filesystem::path given = file->get();
+  *file = std::filesystem::absolute(is_override(file->source()) ? given : folder / given).string();
 }
 
 }  // namespace
@@ -890,6 +925,19 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   Scene scene = read_tables(parse_toml(text, file, problems), file, overrides, problems);
   problems.throw_if_any();
   return scene;
+}
+
+std::string overridden_text(std::string_view text, const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides) {
+  Problems problems(file.string());
+  toml::table root = parse_toml(text, file, problems);
+  for (const std::string& one : overrides) apply_override(root, one, problems);
+  problems.throw_if_any();
+  leave_to_preset(root);
+  make_state_file_absolute(root, file.parent_path());
+  std::ostringstream written;
+  written << root << '\n';
+  return written.str();
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
