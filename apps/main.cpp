@@ -16,6 +16,7 @@
 #include "apps/report.hpp"
 #include "apps/schema.hpp"
 #include "apps/sweep.hpp"
+#include "apps/tradeoff.hpp"
 #include "myowave_version.hpp"
 #include "solver/error.hpp"
 
@@ -97,6 +98,44 @@ struct SweepCommand {
     if (wants_slurm) request.slurm = slurm;
     apps::sweep(request);
   }
+};
+
+struct TradeoffCommand {
+  apps::TradeoffRequest request;
+  bool list = false;
+  CLI::App* command = nullptr;
+
+  explicit TradeoffCommand(CLI::App& app) {
+    command = app.add_subcommand("tradeoff", "Run a scene over its dials of accuracy: cost against error");
+    const auto [scene, set] = add_scene(*command, request.scene, request.overrides);
+    scene->required(false);
+    command->add_option("--out", request.out, "Result folder")->type_name("DIR");
+    command->add_flag("--force", request.force, "Write into a folder that already holds results");
+    command
+        ->add_option("--axes", request.axes,
+                     "Dials, as \"time.dt=0.01,0.02;accuracy.scheme=euler,split\" or by name; without it all")
+        ->type_name("LIST");
+    command->add_flag("--product", request.product, "All combinations of the dials in place of each alone");
+    command
+        ->add_option(
+            "--target", request.targets,
+            "Largest errors, as period=1%,cv=2%: target.toml is the cheapest setting that meets them")
+        ->type_name("ERRORS")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    command->add_option("--budget", request.budget, "No setting is begun after so much measured time")
+        ->type_name("SECONDS");
+    command->add_option("--repetitions", request.repetitions, "Runs of each setting")->capture_default_str();
+    command->add_option("--levels", request.levels, "Grids of the reference, nodes a grid.dx")
+        ->type_name("A,B,C")
+        ->capture_default_str();
+    command->add_option("--starts", request.starts, "Starts that a chaotic scene's means are taken over")
+        ->capture_default_str();
+    command->add_flag("--list", list, "Only print the dials and the presets");
+  }
+
+  void run() { list ? apps::list_dials() : apps::tradeoff(request); }
 };
 
 int guarded(const std::function<void()>& command) {
@@ -189,13 +228,14 @@ int main(int argc, char** argv) {
   report->add_flag("--movie", page.movie, "Also movie.mp4 of each run, by ffmpeg where it is installed");
 
   SweepCommand sweep(app);
+  TradeoffCommand tradeoff(app);
 
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
   // CLI11 would only say that a subcommand is missing.
-  const std::vector<std::string_view> names{"run",       "check",  "describe", "stability",
-                                            "reproduce", "report", "sweep",    "info"};
+  const std::vector<std::string_view> names{"run",    "check", "describe", "stability", "reproduce",
+                                            "report", "sweep", "tradeoff", "info"};
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
     const std::string meant = apps::did_you_mean(argv[1], names);
     fmt::print(stderr,
@@ -223,6 +263,7 @@ int main(int argc, char** argv) {
     if (reproduce->parsed()) apps::reproduce(figures);
     if (report->parsed()) apps::report(page);
     if (sweep.command->parsed()) sweep.run();
+    if (tradeoff.command->parsed()) tradeoff.run();
     if (info->parsed()) apps::info();
   });
 }

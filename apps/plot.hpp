@@ -16,6 +16,7 @@ namespace myowave::apps {
 struct Axis {
   std::string label{}, unit{};         // "time", "s"; the unit may be empty
   std::optional<double> min{}, max{};  // else from the data
+  bool logarithmic = false;            // what is not above zero is a gap
 };
 
 // Rings tell what a point does not: a bound instead of a value.

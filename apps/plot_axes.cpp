@@ -26,6 +26,11 @@ std::string superscript(int exponent) {
 
 }  // namespace
 
+double place_on(const Axis& axis, double value) {
+  if (!axis.logarithmic) return value;
+  return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+}
+
 Range axis_range(const Axis& axis, std::span<const double> values, double margin) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : values) {
@@ -40,7 +45,8 @@ Range axis_range(const Axis& axis, std::span<const double> values, double margin
     low -= half, high += half;
   }
   const double space = margin * (high - low);
-  Range range{axis.min.value_or(low - space), axis.max.value_or(high + space)};
+  Range range{axis.min ? place_on(axis, *axis.min) : low - space,
+              axis.max ? place_on(axis, *axis.max) : high + space};
   if (!(range.low < range.high)) {
     (axis.min && !axis.max ? range.high : range.low) = axis.min && !axis.max ? range.low + 1 : range.high - 1;
   }
@@ -62,6 +68,28 @@ Ticks round_ticks(const Range& range, int most) {
     const std::string digits = fmt::format("{:.{}f}", std::abs(value / unit), decimals);
     ticks.labels.push_back((value < 0 ? "−" : "") + digits);
   }
+  return ticks;
+}
+
+Ticks decade_ticks(const Range& range, int most) {
+  const int first = static_cast<int>(std::floor(range.low)), last = static_cast<int>(std::ceil(range.high));
+  const auto inside = [&](double value) {
+    return std::log10(value) >= range.low - 1e-9 && std::log10(value) <= range.high + 1e-9;
+  };
+  Ticks ticks;
+  const auto add = [&](int digit, int power) {
+    const double value = digit * std::pow(10, power);
+    if (!inside(value)) return;
+    ticks.values.push_back(value);
+    ticks.labels.push_back(power >= -3 && power <= 3 ? fmt::format("{:g}", value)
+                           : digit == 1              ? "10" + superscript(power)
+                                                     : fmt::format("{}·10{}", digit, superscript(power)));
+  };
+  const bool few = range.length() < 3;
+  const int step = few ? 1 : std::max(1, static_cast<int>(std::ceil(range.length() / most)));
+  for (int power = first; power <= last; power += step)
+    for (const int digit : {1, 2, 5})
+      if (digit == 1 || few) add(digit, power);
   return ticks;
 }
 

@@ -49,17 +49,20 @@ std::vector<double> all_x(const Plot& plot) {
   std::vector<double> values;
   for (const Series& series : plot.series) {
     const double half = series.mark == Mark::bars ? 0.5 * smallest_step(series.x) : 0;
-    for (const double x : series.x) values.insert(values.end(), {x - half, x + half});
+    for (const double x : series.x)
+      values.insert(values.end(), {place_on(plot.x, x - half), place_on(plot.x, x + half)});
   }
   return values;
 }
 
 std::vector<double> all_y(const Plot& plot) {
-  std::vector<double> values = plot.guides;
+  std::vector<double> values;
+  for (const double guide : plot.guides) values.push_back(place_on(plot.y, guide));
   for (const Series& series : plot.series) {
     for (std::size_t n = 0; n < series.y.size(); ++n) {
       const double half = n < series.error.size() && std::isfinite(series.error[n]) ? series.error[n] : 0;
-      values.insert(values.end(), {series.y[n] - half, series.y[n] + half});
+      values.insert(values.end(),
+                    {place_on(plot.y, series.y[n] - half), place_on(plot.y, series.y[n] + half)});
     }
   }
   return values;
@@ -86,6 +89,10 @@ void add(std::vector<Point>& line, Point p) {
   }
 }
 
+Ticks ticks_of(const Axis& axis, const Range& range, int most) {
+  return axis.logarithmic ? decade_ticks(range, most) : round_ticks(range, most);
+}
+
 Box grown(const Box& box, double by) {
   return {box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by};
 }
@@ -98,7 +105,7 @@ PlotPanel::PlotPanel(const Plot& plot, double width, double top)
       top_(top),
       x_(axis_range(plot.x, all_x(plot), fills_its_width(plot) ? 0 : margin_of_data)),
       y_(y_range(plot)) {
-  y_ticks_ = round_ticks(y_, 6);
+  y_ticks_ = ticks_of(plot.y, y_, 6);
 }
 
 double PlotPanel::left_margin() const {
@@ -117,21 +124,21 @@ double PlotPanel::lay_out(double left) {
     box_.width = box_.height / ratio;
     box_.x += 0.5 * (room - box_.width);
   }
-  x_ticks_ = round_ticks(x_, std::max(2, static_cast<int>(box_.width / 42)));
-  y_ticks_ = round_ticks(y_, std::max(2, static_cast<int>(box_.height / 28)));
+  x_ticks_ = ticks_of(plot_.x, x_, std::max(2, static_cast<int>(box_.width / 42)));
+  y_ticks_ = ticks_of(plot_.y, y_, std::max(2, static_cast<int>(box_.height / 28)));
   place_legend();
   return box_.bottom() + bottom_margin;
 }
 
 Point PlotPanel::to_point(double x, double y) const {
-  return {box_.x + box_.width * (x - x_.low) / x_.length(),
-          box_.bottom() - box_.height * (y - y_.low) / y_.length()};
+  return {box_.x + box_.width * (place_on(plot_.x, x) - x_.low) / x_.length(),
+          box_.bottom() - box_.height * (place_on(plot_.y, y) - y_.low) / y_.length()};
 }
 
 std::vector<PlotPanel::Line> PlotPanel::pieces(const Series& series) const {
   std::vector<Line> lines(1);
   for (std::size_t n = 0; n < std::min(series.x.size(), series.y.size()); ++n) {
-    if (!std::isfinite(series.x[n]) || !std::isfinite(series.y[n])) {
+    if (!std::isfinite(place_on(plot_.x, series.x[n])) || !std::isfinite(place_on(plot_.y, series.y[n]))) {
       if (!lines.back().empty()) lines.emplace_back();
       continue;
     }

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 #include "apps/initial_state.hpp"
@@ -873,24 +874,55 @@ void apply_override(toml::table& root, const std::string& text, Problems& proble
   }
 }
 
+// What the chosen preset gives on this scene; a preset of an override goes before the file's values.
+struct ChosenPreset {
+  std::vector<PresetValue> values;
+  bool over_the_file = false;
+
+  explicit ChosenPreset(const toml::table& root) {
+    const toml::node* const chosen = root.at_path(preset_key).node();
+    const Preset* const preset =
+        chosen == nullptr ? nullptr : find_preset(chosen->value_or(std::string_view()));
+    if (preset == nullptr) return;
+    over_the_file = is_override(chosen->source());
+    const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
+    for (const PresetValue& one : preset->values) {
+      // A section that is no table is told of when it is read.
+      const toml::node* const section = root.get(one.key.substr(0, one.key.find('.')));
+      if (one.holds(elastic) && (section == nullptr || section->is_table())) values.push_back(one);
+    }
+  }
+};
+
 // What the scene names itself stays, but a preset of an override changes the file's values.
 void apply_preset(toml::table& root) {
-  const toml::node* const chosen = root.at_path(preset_key).node();
-  const Preset* const preset =
-      chosen == nullptr ? nullptr : find_preset(chosen->value_or(std::string_view()));
-  if (preset == nullptr) return;
-  const bool over_the_file = is_override(chosen->source());
-  const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
-  const auto give = [&](const std::string& key, const std::string& value) {
-    // What is no table is told of when it is read.
-    const toml::node* const section = root.get(key.substr(0, key.find('.')));
-    if (section != nullptr && !section->is_table()) return;
+  const ChosenPreset preset(root);
+  for (const PresetValue& one : preset.values) {
+    const std::string key(one.key);
     const toml::node* const named = root.at_path(key).node();
-    if (named != nullptr && (!over_the_file || is_override(named->source()))) return;
-    merge(root, override_table(key, value, std::string(preset_key)), split(key));
-  };
-  for (const PresetValue& one : preset->values)
-    if (one.holds(elastic)) give(std::string(one.key), std::string(one.value));
+    if (named != nullptr && (!preset.over_the_file || is_override(named->source()))) continue;
+    merge(root, override_table(key, std::string(one.value), std::string(preset_key)), split(key));
+  }
+}
+
+// Leaves out what a preset of an override changes, so that the preset gives it where it stands in the file.
+void leave_to_preset(toml::table& root) {
+  const ChosenPreset preset(root);
+  for (const PresetValue& one : preset.values) {
+    const toml::node* const named = root.at_path(one.key).node();
+    if (named == nullptr || !preset.over_the_file || is_override(named->source())) continue;
+    const auto path = split(std::string(one.key));
+    root.get_as<toml::table>(path.front())->erase(path.back());
+  }
+}
+
+// From any folder the same.
+void make_state_file_absolute(toml::table& root, const std::filesystem::path& folder) {
+  auto* const initial = root.get_as<toml::table>("initial");
+  auto* const file = initial == nullptr ? nullptr : initial->get_as<std::string>("file");
+  if (file == nullptr) return;
+  const std::filesystem::path given = file->get();
+  *file = std::filesystem::absolute(is_override(file->source()) ? given : folder / given).string();
 }
 
 }  // namespace
@@ -908,6 +940,19 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   Scene scene = read_tables(parse_toml(text, file, problems), file, overrides, problems);
   problems.throw_if_any();
   return scene;
+}
+
+std::string overridden_text(std::string_view text, const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides) {
+  Problems problems(file.string());
+  toml::table root = parse_toml(text, file, problems);
+  for (const std::string& one : overrides) apply_override(root, one, problems);
+  problems.throw_if_any();
+  leave_to_preset(root);
+  make_state_file_absolute(root, file.parent_path());
+  std::ostringstream written;
+  written << root << '\n';
+  return written.str();
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -20,4 +20,9 @@ solver::Scene read_scene(const std::filesystem::path& file, const std::vector<st
 solver::Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                           const std::vector<std::string>& overrides = {});
 
+// The scene with its overrides as a text of its own, which gives the same scene in any folder. Comments of
+// the text are lost. Errors: InputError for overrides that lead nowhere.
+std::string overridden_text(std::string_view text, const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides);
+
 }  // namespace myowave::apps

@@ -76,6 +76,13 @@ TEST(Ticks, OfLargeAndSmallNumbersShareTheirPowerOfTen) {
   EXPECT_EQ(axis_text({.label = "tips"}, 0), "tips");
 }
 
+TEST(DecadeTicks, ArePowersOfTenAndBetweenThemWhereTheyAreFew) {
+  EXPECT_THAT(decade_ticks({-0.5, 1.1}, 6).labels, ElementsAre("0.5", "1", "2", "5", "10"));
+  EXPECT_THAT(decade_ticks({-2, 2}, 6).labels, ElementsAre("0.01", "0.1", "1", "10", "100"));
+  EXPECT_THAT(decade_ticks({-8, -4}, 6).labels, ElementsAre("10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵", "10⁻⁴"));
+  EXPECT_THAT(decade_ticks({-12, 12}, 6).values.size(), 7u);
+}
+
 TEST(AxisRange, IsThatOfTheDataOrAsGiven) {
   const std::vector<double> values{3, nan, 1, 2};
   EXPECT_EQ(axis_range({}, values, 0).low, 1);
@@ -107,6 +114,22 @@ TEST(Figure, APointIsWhereItBelongs) {
   EXPECT_LT(high.y, low.y - 100) << "y points up";
   EXPECT_NEAR(point.x, low.x + 0.25 * (high.x - low.x), 0.6);
   EXPECT_NEAR(point.y, low.y + 0.75 * (high.y - low.y), 0.6);
+}
+
+TEST(Figure, OnLogarithmicAxesPowersOfTenAreEquallyFarApart) {
+  const auto at = [](double x, double y, int colour) {
+    return Series{.name = "", .x = {x}, .y = {y}, .mark = Mark::points, .colour = colour};
+  };
+  const Plot plot{.title = "",
+                  .x = {.label = "time", .unit = "s", .min = 0.1, .max = 1000, .logarithmic = true},
+                  .y = {.label = "error", .unit = "%", .logarithmic = true},
+                  .series = {at(1, 0.01, 0), at(100, 1, 1), at(10, 0.1, 2), at(10, 0, 3)}};
+  const Picture picture = test::decode_png(figure_png({.panels = {plot}}));
+  const Point low = middle_of(picture, palette[0]), high = middle_of(picture, palette[1]);
+  const Point middle = middle_of(picture, palette[2]);
+  EXPECT_NEAR(middle.x, 0.5 * (low.x + high.x), 0.6);
+  EXPECT_NEAR(middle.y, 0.5 * (low.y + high.y), 0.6);
+  EXPECT_EQ(count_of(picture, palette[3]), 0) << "zero has no place";
 }
 
 TEST(Figure, ARingIsOpenWhereAPointIsNot) {
