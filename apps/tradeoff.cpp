@@ -41,6 +41,7 @@ std::string command_of(const TradeoffRequest& request) {
   if (!request.axes.empty()) command += fmt::format(" --axes \"{}\"", request.axes);
   if (request.product) command += " --product";
   for (const auto& one : request.targets) command += fmt::format(" --target {}", one);
+  if (request.refine_elements) command += " --refine-elements";
   if (request.budget) command += fmt::format(" --budget {}", *request.budget);
   return command + fmt::format(" --repetitions {} --levels {} --starts {}", request.repetitions,
                                request.levels, request.starts);
@@ -169,10 +170,11 @@ class Experiment {
   }
 
  private:
-  // Its elements have as many cells as those of the scene, k times smaller ones.
+  // With the elements of the scene, or k times smaller ones.
   solver::Scene reference_scene(int k) const {
     solver::Scene scene = variants_.scene(reference_overrides(study_.own, k));
-    if (scene.mechanics) scene.mechanics->cells_per_element = study_.own.mechanics->cells_per_element;
+    if (scene.mechanics && request_.refine_elements)
+      scene.mechanics->cells_per_element = study_.own.mechanics->cells_per_element;
     return scene;
   }
 

@@ -17,6 +17,7 @@ struct TradeoffRequest {
   std::optional<double> budget;  // s of measured runs, after which no setting is begun
   int repetitions = 3;
   std::string levels = "2,3,4";
+  bool refine_elements = false;  // of the reference, as its grids
   int starts = 3;  // of a chaotic scene's reference
   bool force = false;
 };

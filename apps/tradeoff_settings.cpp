@@ -181,9 +181,8 @@ std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
     overrides.push_back(fmt::format("{}={}", key, value));
   };
   // By name, because what --set gives goes before a preset.
-  const auto unwanted = own.mechanics ? PresetValue::Sheet::rigid : PresetValue::Sheet::elastic;
-  for (const auto& [key, value, sheet] : find_preset("reference")->values)
-    if (sheet != unwanted) set(key, value);
+  for (const PresetValue& one : find_preset("reference")->values)
+    if (one.holds(own.mechanics.has_value())) set(one.key, one.value);
   set("accuracy.dx", fmt::format("{:.15g}", dx / k));
   set("accuracy.quiescent", 0);
   set("time.dt", coupling / steps);

@@ -345,14 +345,14 @@ void Electromechanics<ExecutionSpace, Real>::take_steps(std::int64_t first, std:
 
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, double dt) {
-  const observe::ProbeRecorder<Real, Space> record{probe_nodes_, probe_record_.device, grid_.columns,
-                                                   probe_rows_};
   std::visit(
       [&](const auto& form) {
         using Form = std::decay_t<decltype(form)>;
         if constexpr (decltype(Form::diffusion)::mirrored_edges)
           with_fastest_metric<ExecutionSpace>(form, nodes_.device, [&](const auto& diffusion) {
             with_model<typename Form::Scheme>(scene_, model_, [&](const auto& model) {
+              const observe::ProbeRecorder<std::decay_t<decltype(model)>, Space> record{
+                  probe_nodes_, probe_record_.device, {model, Real(dt)}, grid_.columns, probe_rows_};
               tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record,
                                   &active_);
             });
@@ -365,10 +365,11 @@ template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::single_step(int n,
                                                          const std::vector<tissue::ActiveStimulus>& stimuli,
                                                          double dt) {
-  observe::record_probes(space_, state_.V, probe_nodes_, probe_record_.device, n);
   std::visit(
       [&](const auto& form) {
         with_model<typename std::decay_t<decltype(form)>::Scheme>(scene_, model_, [&](const auto& model) {
+          observe::record_seen(space_, state_.V, state_.r, probe_nodes_, probe_record_.device, n,
+                               observe::SeenV<std::decay_t<decltype(model)>>{model, Real(dt)});
           tissue::monodomain_step(space_, form.diffusion, model, dt, state_.V, state_.r, state_.Ta, spare_.V);
         });
       },

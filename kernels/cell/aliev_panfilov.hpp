@@ -23,6 +23,12 @@ struct AlievPanfilov {
     return -k * V * (V - a) * (V - Real(1)) - r * V;
   }
 
+  // df/dV and df/dr, 1/t.u.
+  KOKKOS_FORCEINLINE_FUNCTION Real excitation_by_V(Real V, Real r) const {
+    return -k * ((Real(3) * V - Real(2) * (a + Real(1))) * V + a) - r;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real excitation_by_r(Real V) const { return -V; }
+
   // dr/dt, 1/t.u.
   KOKKOS_FORCEINLINE_FUNCTION Real recovery(Real V, Real r) const {
     return (eps + mu1 * r / (mu2 + V)) * (-r - k * V * (V - b - Real(1)));

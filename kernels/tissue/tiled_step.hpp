@@ -35,13 +35,14 @@ struct TilePlan {
   NodeBox box = {};
 };
 
-// Looks at V of the owned nodes before each step; nothing by default.
+// Looks at V and r of the owned nodes before each step; nothing by default.
 struct NoRecorder {
   template <class Columns, class Real>
   KOKKOS_FUNCTION void operator()(const Columns&, int /*m*/, int /*i*/, int /*step*/, int /*begin*/,
-                                  int /*end*/, const Real* /*V from column begin on*/) const {}
-  template <class View>
-  void outside(const NodeBox&, const View& /*V*/, int /*first_step*/, int /*steps*/) const {}
+                                  int /*end*/, const Real* /*V from column begin on*/,
+                                  const Real* /*r*/) const {}
+  template <class Fields>
+  void outside(const NodeBox&, const Fields& /*state*/, int /*first_step*/, int /*steps*/) const {}
 };
 
 // Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
@@ -137,7 +138,7 @@ struct TiledStep {
   }
 
   // Launches plan.sweeps times plan.depth steps, numbered from first_step on for
-  // record(columns, m, i, step, begin, end, V), which sees V of the owned columns of row i before each step.
+  // record(columns, m, i, step, begin, end, V, r), which sees the owned columns of row i before each step.
   // No fence. plan.columns is a multiple of a line's entries, or all columns.
   static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                      TilePlan plan, const ExcitationFields<View>& old_state,
@@ -282,9 +283,6 @@ struct TiledStep {
     const StencilRows<Real> V{rings.V(level - 1, mirrored(i - 1, rows)), rings.V(level - 1, i),
                               rings.V(level - 1, mirrored(i + 1, rows))};
     const int owned = tile.first_column - origin;
-    if (i >= tile.first_row && i < tile.last_row)
-      record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column,
-             V.here + owned);
     const auto row = metric.row(V, i);
     const bool first = level == 1, last = level == plan.depth;
     const int next_row = diffusion.grid.columns;
@@ -296,6 +294,9 @@ struct TiledStep {
                                    last ? &sweep.to.V(m, i, origin) : rings.V(level, i),
                                    last ? &sweep.to.r(m, i, origin) : rings.r(i),
                                    tension(last, sweep.to.Ta, rings, m, i, origin)};
+    if (i >= tile.first_row && i < tile.last_row)
+      record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column, V.here + owned,
+             update.r + owned);
     const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
     if (last)
       columns.template each<Real>(owned, tile.last_column - origin, at,
@@ -334,8 +335,8 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
       if (active) {
         space.fence("myowave::tissue::active_box");
         box = active->find(state, spare, depth, Step::line);
-        if (box.rows() == 0) return record.outside(box, state.V, first_step + done, steps - done);
-        record.outside(box, state.V, first_step + done, depth);
+        if (box.rows() == 0) return record.outside(box, state, first_step + done, steps - done);
+        record.outside(box, state, first_step + done, depth);
       }
     TilePlan plan = Step::plan_tiles(space, {box.rows(), box.columns()}, members, depth);
     plan.box = box;

@@ -157,8 +157,8 @@ const BadScene bad_scenes[] = {
      ":2:6: initial.dx = 1e-09 puts 1.5e+11 nodes along a side of 150 length units; at most 1e+07 are "
      "allowed: "
      "set it to 1.5e-05 or more"},
-    {"value_of_a_preset", "[accuracy]\npreset = 'fast'\n[output]\nevery = 0.5",
-     ":4:9: output.every = 0.5 is not a multiple of time.dt = 0.2; the nearest are 0.4 and 0.6"},
+    {"value_of_a_preset", "[accuracy]\npreset = 'fast'\n[output]\nevery = 0.5\ntips_every = 0.3",
+     ":4:9: output.every = 0.5 is not a multiple of time.dt = 0.15; the nearest are 0.45 and 0.6"},
     {"more_nodes_than_can_be_counted", "[accuracy]\ndx = 1e-9",
      ":2:6: accuracy.dx = 1e-09 puts 1.5e+11 nodes along a side of 150 length units; at most 1e+07 are "
      "allowed: "

@@ -269,12 +269,13 @@ ExcitationState split_step(const solver::ExcitationSettings& p, const solver::Te
   for (std::size_t n = 0; n < old.V.size(); ++n) {
     const double r = old.r[n], Ta = old.Ta[n];
     const double V = old.V[n] + dt * p.D * diffusion[n] / p.C_m;
-    const double V_middle = V + dt / 2 * f(V, r);
+    const double f_V = (-p.k * (3 * V * V - 2 * (1 + p.a) * V + p.a) - r) / p.C_m;
+    const double V_middle = V + dt / 2 * f(V, r) / (1 - dt / 2 * f_V);
     // r_t = A B with A = eps + mu1 r / (mu2 + V), B = -r - k V (V - b - 1);  r_tt = (A_r B + A B_r) r_t
     const double A = p.eps + p.mu1 * r / (p.mu2 + V_middle), A_r = p.mu1 / (p.mu2 + V_middle);
     const double B = -r - p.k * V_middle * (V_middle - p.b - 1);
     next.r[n] = r + dt * A * B + dt * dt / 2 * (A_r * B - A) * A * B;
-    next.V[n] = V + dt * f(V_middle, (r + next.r[n]) / 2);
+    next.V[n] = 2 * V_middle - V - dt / 2 * (next.r[n] - r) * V_middle / p.C_m;
     const double eps_T = V_middle < tension.threshold ? tension.eps_below : tension.eps_above;
     const double Ta_t = eps_T * (tension.k_Ta * V_middle - Ta);
     next.Ta[n] = Ta + dt * Ta_t - dt * dt / 2 * eps_T * Ta_t;

@@ -266,11 +266,14 @@ TEST(scene_file, what_a_scene_on_another_spacing_says_of_itself_is_that_scene) {
 TEST(scene_file, the_step_of_a_preset_follows_the_spacing) {
   const Scene usual = scene("accuracy.preset = 'fast'"),
               finer = scene("accuracy.preset = 'fast'", {"accuracy.dx=0.6"});
-  EXPECT_EQ(usual.grid.dx, 1);
-  EXPECT_LE(finer.time.dt / (0.6 * 0.6), usual.time.dt / (usual.grid.dx * usual.grid.dx) * (1 + 1e-12));
-  EXPECT_EQ(std::round(usual.time.dt / finer.time.dt), usual.time.dt / finer.time.dt);
+  EXPECT_DOUBLE_EQ(usual.grid.dx, 150.0 / 131);
+  EXPECT_LE(finer.time.dt / (0.6 * 0.6), usual.time.dt / (usual.grid.dx * usual.grid.dx) * 1.2);
   EXPECT_EQ(scene("accuracy.preset = 'fast'\ntime.dt = 0.03", {"accuracy.dx=0.6"}).time.dt, 0.03);
   EXPECT_EQ(scene("accuracy.preset = 'fast'\nexcitation.D = 2").time.dt, usual.time.dt / 2);
+  // ... and the outputs
+  EXPECT_EQ(usual.time.dt, 0.2);
+  EXPECT_DOUBLE_EQ(scene("accuracy.preset = 'fast'\noutput.every = 0.5").time.dt, 0.5 / 3);
+  EXPECT_DOUBLE_EQ(scene("accuracy.preset = 'fast'\noutput.tips_every = 0.1").time.dt, 0.1);
 }
 
 TEST(scene_file, set_of_the_type_forgives_keys_of_the_file_for_another) {

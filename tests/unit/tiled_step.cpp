@@ -253,9 +253,10 @@ TEST(TiledSteps, ProbesSeeVBeforeEveryStep) {
                                                                         probes.size());
   const tissue::IdentityDiffusion<double, MemorySpace> diffusion(sheet.grid());
   auto state = random_state<double>(sheet), spare = empty_state<double>(sheet);
-  tissue::tiled_steps(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt, steps, state,
-                      spare, first_step,
-                      observe::ProbeRecorder<double, MemorySpace>{nodes, record, sheet.columns});
+  const auto model = solver::make_model<double>({}, {});
+  tissue::tiled_steps(
+      ExecutionSpace(), diffusion, model, dt, steps, state, spare, first_step,
+      observe::ProbeRecorder<solver::Model<double>, MemorySpace>{nodes, record, {model, dt}, sheet.columns});
   const auto recorded = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, record);
   for (int n = 0; n < steps; ++n) {
     const Values V = test::to_values(single_steps<double>(sheet, diffusion, n).V);
@@ -376,10 +377,12 @@ TEST(TiledSteps, ProbesOutsideTheActiveBoxSeeVBeforeEveryStep) {
     Kokkos::deep_copy(record, -1);
     auto state = spots<double>(at, true), spare = empty_state<double>(at);
     tissue::ActiveBox<double> active(at.grid(), 0, 1);
-    tissue::tiled_steps(ExecutionSpace(), tissue::IdentityDiffusion<double, MemorySpace>(at.grid()),
-                        solver::make_model<double>({}, {}), dt, steps, state, spare, 1,
-                        observe::ProbeRecorder<double, MemorySpace>{nodes, record, at.columns},
-                        leave_out ? &active : nullptr);
+    const auto model = solver::make_model<double>({}, {});
+    tissue::tiled_steps(
+        ExecutionSpace(), tissue::IdentityDiffusion<double, MemorySpace>(at.grid()), model, dt, steps, state,
+        spare, 1,
+        observe::ProbeRecorder<solver::Model<double>, MemorySpace>{nodes, record, {model, dt}, at.columns},
+        leave_out ? &active : nullptr);
     return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, record);
   };
   const auto record = record_of(true);
