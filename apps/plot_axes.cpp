@@ -31,7 +31,7 @@ double place_on(const Axis& axis, double value) {
   return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Range axis_range(const Axis& axis, std::span<const double> values, double margin) {
+AxisRange axis_range(const Axis& axis, std::span<const double> values, double margin) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
@@ -45,15 +45,15 @@ Range axis_range(const Axis& axis, std::span<const double> values, double margin
     low -= half, high += half;
   }
   const double space = margin * (high - low);
-  Range range{axis.min ? place_on(axis, *axis.min) : low - space,
-              axis.max ? place_on(axis, *axis.max) : high + space};
+  AxisRange range{axis.min ? place_on(axis, *axis.min) : low - space,
+                  axis.max ? place_on(axis, *axis.max) : high + space};
   if (!(range.low < range.high)) {
     (axis.min && !axis.max ? range.high : range.low) = axis.min && !axis.max ? range.low + 1 : range.high - 1;
   }
   return range;
 }
 
-Ticks round_ticks(const Range& range, int most) {
+Ticks round_ticks(const AxisRange& range, int most) {
   const double step = round_up(range.length() / std::max(1, most));
   Ticks ticks;
   const double edge = 1e-9 * range.length();
@@ -71,7 +71,7 @@ Ticks round_ticks(const Range& range, int most) {
   return ticks;
 }
 
-Ticks decade_ticks(const Range& range, int most) {
+Ticks decade_ticks(const AxisRange& range, int most) {
   const int first = static_cast<int>(std::floor(range.low)), last = static_cast<int>(std::ceil(range.high));
   const auto inside = [&](double value) {
     return std::log10(value) >= range.low - 1e-9 && std::log10(value) <= range.high + 1e-9;

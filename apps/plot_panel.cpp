@@ -69,9 +69,9 @@ std::vector<double> all_y(const Plot& plot) {
 }
 
 // Bars stand on the axis.
-Range y_range(const Plot& plot) {
+AxisRange y_range(const Plot& plot) {
   const auto values = all_y(plot);
-  Range range = axis_range(plot.y, values, margin_of_data);
+  AxisRange range = axis_range(plot.y, values, margin_of_data);
   const bool bars =
       std::ranges::any_of(plot.series, [](const Series& series) { return series.mark == Mark::bars; });
   if (bars && !plot.y.min && std::ranges::none_of(values, [](double y) { return y < 0; })) range.low = 0;
@@ -89,7 +89,7 @@ void add(std::vector<Point>& line, Point p) {
   }
 }
 
-Ticks ticks_of(const Axis& axis, const Range& range, int most) {
+Ticks ticks_of(const Axis& axis, const AxisRange& range, int most) {
   return axis.logarithmic ? decade_ticks(range, most) : round_ticks(range, most);
 }
 

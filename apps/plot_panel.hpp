@@ -42,7 +42,7 @@ class PlotPanel {
 
   const Plot& plot_;
   double width_, top_;
-  Range x_, y_;
+  AxisRange x_, y_;
   Ticks x_ticks_, y_ticks_;
   Box box_;
   std::vector<Entry> legend_;

@@ -53,7 +53,7 @@ TEST(Ticks, AreRoundNumbers) {
 TEST(Ticks, OfManyRangesAreInsideAndNotTooMany) {
   for (const double low : {-1e4, -3.3, 0.0, 1e-5, 7.0, 1e6}) {
     for (const double length : {1e-3, 0.27, 1.0, 4.9, 5.1, 99.0, 3e7}) {
-      const Range range{low, low + length};
+      const AxisRange range{low, low + length};
       const Ticks ticks = round_ticks(range, 6);
       EXPECT_GE(ticks.values.size(), 2u) << low << ' ' << length;
       EXPECT_LE(ticks.values.size(), 7u) << low << ' ' << length;
@@ -90,9 +90,9 @@ TEST(AxisRange, IsThatOfTheDataOrAsGiven) {
   EXPECT_DOUBLE_EQ(axis_range({}, values, 0.1).high, 3.2);
   EXPECT_EQ(axis_range({.min = 0}, values, 0.1).low, 0);
   for (const auto& none : {std::vector<double>{}, {nan}, {5, 5}, {0}}) {
-    const Range range = axis_range({}, none, 0.1);
+    const AxisRange range = axis_range({}, none, 0.1);
     EXPECT_LT(range.low, range.high);
-    const Range given = axis_range({.min = 7}, none, 0.1);
+    const AxisRange given = axis_range({.min = 7}, none, 0.1);
     EXPECT_EQ(given.low, 7);
     EXPECT_LT(given.low, given.high);
   }
