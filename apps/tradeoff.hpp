@@ -18,7 +18,7 @@ struct TradeoffRequest {
   int repetitions = 3;
   std::string levels = "2,3,4";
   bool refine_elements = false;  // of the reference, as its grids
-  int starts = 3;  // of a chaotic scene's reference
+  int starts = 3;                // of a chaotic scene's reference
   bool force = false;
 };
 
