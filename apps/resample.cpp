@@ -86,7 +86,7 @@ double spacing_of_run(const solver::Scene& scene) {
   if (scene.dx == 0) return dx;
   const int cells = scene.mechanics ? scene.mechanics->cells_per_element : std::gcd(rows - 1, columns - 1);
   const double side = cells * dx;
-  const double parts = std::ceil(side / scene.dx - rounding);
+  const double parts = std::max(1.0, std::ceil(side / scene.dx - rounding));
   return parts == cells ? dx : side / parts;
 }
 

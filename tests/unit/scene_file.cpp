@@ -250,6 +250,7 @@ TEST(scene_file, the_spacing_is_the_largest_up_to_that_which_fits) {
   EXPECT_DOUBLE_EQ(spacing("mechanics.cells_per_element = 10", 0.5), 0.5);
   EXPECT_DOUBLE_EQ(spacing("mechanics.cells_per_element = 1", 1), 0.6);
   EXPECT_DOUBLE_EQ(spacing("grid.n = 128", 1), 127 * 0.6 / 77);
+  EXPECT_DOUBLE_EQ(spacing("grid.n = 11\ngrid.dx = 1e-9", 1), 1e-8) << "larger than the sheet";
   EXPECT_DOUBLE_EQ(spacing("grid.n = [101, 251]", 0.9), 30.0 / 34);
 }
 
