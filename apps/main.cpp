@@ -130,8 +130,9 @@ struct TradeoffCommand {
     command->add_option("--levels", request.levels, "Grids of the reference, nodes a grid.dx")
         ->type_name("A,B,C")
         ->capture_default_str();
-    command->add_flag("--refine-elements", request.refine_elements,
-                      "The reference's elements become smaller with its grids; without it they are the scene's");
+    command->add_flag(
+        "--refine-elements", request.refine_elements,
+        "The reference's elements become smaller with its grids; without it they are the scene's");
     command->add_option("--starts", request.starts, "Starts that a chaotic scene's means are taken over")
         ->capture_default_str();
     command->add_flag("--list", list, "Only print the dials and the presets");
