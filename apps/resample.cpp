@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "solver/extrapolation.hpp"
+
 namespace myowave::apps {
 namespace {
 
@@ -35,12 +37,9 @@ struct Cubic {
     }
     // At an edge the four nodes nearest to it.
     const int first = std::clamp(static_cast<int>(std::floor(place)) - 1, 0, count - 4);
-    for (int n = 0; n < 4; ++n) {
-      nodes[n] = first + n;
-      weights[n] = 1;
-      for (int other = 0; other < 4; ++other)
-        if (other != n) weights[n] *= (place - first - other) / (n - other);
-    }
+    constexpr std::array places{0.0, 1.0, 2.0, 3.0};
+    std::iota(nodes.begin(), nodes.end(), first);
+    std::ranges::copy(solver::lagrange_weights(places, place - first), weights.begin());
   }
 };
 

@@ -466,9 +466,8 @@ class SceneReader {
     const double finer = std::strtod(std::string(dx.value).c_str(), nullptr) / spacing;
     const double parts = finer * finer * scene_.excitation.D / scene_.excitation.C_m / 1.2;
     const double longest = scene_.time.dt / std::max(1.0, std::ceil(parts));
-    const auto& [every, tips_every, probes_every] =
-        std::tie(scene_.output.every, scene_.output.tips_every, scene_.output.probes_every);
-    const double interval = std::min({every, tips_every, probes_every});
+    const solver::OutputSettings& output = scene_.output;
+    const double interval = std::min({output.every, output.tips_every, output.probes_every});
     return interval / std::ceil(interval / longest - 1e-9);
   }
 

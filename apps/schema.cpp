@@ -330,7 +330,7 @@ std::vector<Section> make_schema() {
          "one "
          "after the other, of second order in time, with a nine-point stencil. At dt = dx^2 / (6 D) its "
          "error "
-         "in the wave speed is 20 times smaller at a third of the steps. Not with feedback.metric = "
+         "in the wave speed is at least 16 times smaller at a third of the steps. Not with feedback.metric = "
          "\"expanded\"."},
         {"on_unstable", "", choice({"stop", "substep"}, MYOWAVE_AT(scene.on_unstable)),
          "Where a step is past the bound of the deformed metric, or what it gives is noise, out of range or "

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "apps/richardson.hpp"
+#include "solver/extrapolation.hpp"
 #include "solver/statistics.hpp"
 
 namespace myowave::apps {
@@ -79,14 +81,9 @@ double value_at(const Measures::Curve& curve, double t) {
   const auto after = static_cast<std::size_t>(std::ranges::upper_bound(times, t) - times.begin());
   const std::size_t n = std::min(points, times.size());
   const std::size_t first = std::min(after > points / 2 ? after - points / 2 : 0, times.size() - n);
-  double value = 0;
-  for (std::size_t i = first; i < first + n; ++i) {
-    double weight = 1;
-    for (std::size_t j = first; j < first + n; ++j)
-      if (j != i) weight *= (t - times[j]) / (times[i] - times[j]);
-    value += weight * curve.value[i];
-  }
-  return value;
+  const auto weights = solver::lagrange_weights(std::span(times).subspan(first, n), t);
+  return std::inner_product(weights.begin(), weights.end(),
+                            curve.value.begin() + static_cast<std::ptrdiff_t>(first), 0.0);
 }
 
 std::optional<double> curve_error(const Measures::Curve& a, const Measures::Curve& b) {
