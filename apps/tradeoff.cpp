@@ -156,8 +156,7 @@ class Experiment {
       for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[engine() % n]);
       // All speeds are against it, so that a budget leaves out others first.
       if (round == 0)
-        std::ranges::stable_partition(order,
-                                      [](const Trial* trial) { return trial->setting.name == "paper"; });
+        std::ranges::partition(order, [](const Trial* trial) { return trial->setting.name == "paper"; });
       for (Trial* trial : order) {
         if (request_.budget && spent >= *request_.budget) {
           if (round == 0) trial->trouble = "left out: the budget was spent";
