@@ -115,9 +115,9 @@ template <class Real>
 void time_activation(benchmark::State& state, const Suite& suite, int n) {
   const Sheet<Real> sheet(n), later(n);
   fill(later.V, [](int i, int j) { return static_cast<Real>(initial_V(i + 1, j)); });
-  const observe::ActivationFields<MemorySpace> fields{
-      {"myowave::bench::marks", 1, std::size_t(n), std::size_t(n)},
-      {"myowave::bench::records", 1, std::size_t(n), std::size_t(n)}};
+  using Fields = observe::ActivationFields<MemorySpace>;
+  const Fields fields{Fields::Marks("myowave::bench::marks", 1, n, n),
+                      Fields::Records("myowave::bench::records", 1, n, n)};
   observe::begin_activation(ExecutionSpace(), sheet.V, fields);
   double t = 0;
   const double size = static_cast<double>(n) * n;

@@ -90,8 +90,10 @@ struct ActivationLook {
 
 template <class MemorySpace>
 struct ActivationFields {
-  EnsembleField<float, MemorySpace> marks;
-  EnsembleField<ActivationRecord, MemorySpace> records;
+  using Marks = EnsembleField<float, MemorySpace>;
+  using Records = EnsembleField<ActivationRecord, MemorySpace>;
+  Marks marks;
+  Records records;
 };
 
 // The first look, at V of all members: records begin anew.

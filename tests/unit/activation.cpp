@@ -26,7 +26,8 @@ class Maps {
     const auto V = test::to_view<Real>(rows_, columns_, members);
     if (fields_.marks.size() == 0) {
       const std::size_t m = members.size(), n = rows_, k = columns_;
-      fields_ = {{"myowave::test::marks", m, n, k}, {"myowave::test::records", m, n, k}};
+      fields_ = {Fields::Marks("myowave::test::marks", m, n, k),
+                 Fields::Records("myowave::test::records", m, n, k)};
       begin_activation(ExecutionSpace(), V, fields_);
     } else {
       look_at_activation(ExecutionSpace(), V, ActivationLook{t_, t, from_, {}}, fields_);
@@ -43,7 +44,8 @@ class Maps {
  private:
   int rows_, columns_;
   double from_, t_ = 0;
-  ActivationFields<MemorySpace> fields_;
+  using Fields = ActivationFields<MemorySpace>;
+  Fields fields_;
 };
 
 ActivationRecord record_of(std::initializer_list<double> V, double from = 0) {
