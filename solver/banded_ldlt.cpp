@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/tile_operations.hpp"
+
 namespace myowave::solver {
 using namespace tile;
 
