@@ -31,7 +31,9 @@
 #include "apps/signals.hpp"
 #include "apps/stability.hpp"
 #include "myowave_version.hpp"
+#include "solver/device_memory.hpp"
 #include "solver/error.hpp"
+#include "solver/memory_watch.hpp"
 #include "solver/run.hpp"
 #include "solver/stability.hpp"
 
@@ -107,6 +109,18 @@ void print_plan(const solver::Plan& plan, double nodes) {
   }
 }
 
+void print_memory(const solver::Plan& plan, double nodes) {
+  fmt::print("memory   {}; bytes a node: {:.0f} of state, {:.0f} of coefficients, {:.0f} in all\n",
+             bytes_text(plan.bytes()), plan.state_bytes_per_node, plan.coefficient_bytes_per_node,
+             plan.bytes() / nodes);
+  for (const auto& [space, bytes] : plan.views()) {
+    const bool on_host = space == Kokkos::HostSpace::name();
+    const auto free = on_host ? free_memory() : solver::free_device_memory();
+    fmt::print("         {} in the Views of Kokkos' memory space {}{}\n", bytes_text(bytes), space,
+               free ? fmt::format(", {} are free there", bytes_text(*free)) : "");
+  }
+}
+
 void print_time(const solver::Scene& scene) {
   try {
     const Estimate time = estimate(scene);
@@ -125,10 +139,12 @@ solver::RunSummary run_into(RunFolder& folder, const std::filesystem::path& out,
                             solver::InitialState initial, solver::CheckpointKeeper& keeper,
                             const solver::FoundCheckpoint* from) {
   solver::RunSummary summary;
+  const solver::MemoryWatch memory;
   try {
     solver::run(scene, std::move(initial), folder, summary,
                 {.stop = &stop_requested(), .checkpoints = &keeper, .resume = from});
   } catch (const std::exception& failure) {
+    summary.memory = memory.most();
     try {
       folder.write_summary(summary, failure.what());
     } catch (const std::exception&) {
@@ -138,6 +154,7 @@ solver::RunSummary run_into(RunFolder& folder, const std::filesystem::path& out,
     throw solver::Interrupted(
         fmt::format("{}; go on with: myowave run --resume {}", failure.what(), out.string()));
   }
+  summary.memory = memory.most();
   folder.write_summary(summary, std::nullopt);
   keeper.remove_all();
   return summary;
@@ -164,6 +181,7 @@ void resume(const std::filesystem::path& out, bool quiet) {
                     out.string(), refused.empty() ? "" : " that is sound"));
   const solver::Scene scene = load(source_from(found->identity));
   const Device device;
+  solver::require_device_memory(scene);
   RunFolder folder(out, scene, found->mark, quiet);
   solver::CheckpointKeeper keeper(out / checkpoints_name, found->identity, &*found);
   if (!quiet) fmt::print(stderr, "myowave: goes on from {}, t = {:g} t.u.\n", found->file.string(), found->t);
@@ -191,6 +209,7 @@ void run(const RunRequest& request) {
   // Everything that can refuse the run comes before its folder, where --force replaces old results.
   RunFolder::require_free(out, request.force);
   const Device device;
+  solver::require_device_memory(scene);
   solver::InitialState initial = [&] {
     SettlingProgress progress(scene, request.quiet);
     return resolve_initial_state(scene, progress);
@@ -217,13 +236,10 @@ void check(const std::string& file, const std::vector<std::string>& overrides) {
   for (const std::string& warning : solver::warnings_of(scene)) fmt::print("warning  {}\n", warning);
   fmt::print("length   {}, {} steps\n", time_text(scene.time.t_end, scene),
              std::llround(scene.time.t_end / scene.time.dt));
-  const auto free = free_memory();
-  fmt::print("memory   {}{}; bytes a node: {:.0f} of state, {:.0f} of coefficients, {:.0f} in all\n",
-             bytes_text(plan.bytes()), free ? fmt::format(", {} are free", bytes_text(*free)) : "",
-             plan.state_bytes_per_node, plan.coefficient_bytes_per_node, plan.bytes() / nodes);
-  std::cout << std::flush;
-
   const Device device;
+  print_memory(plan, nodes);
+  std::cout << std::flush;
+  solver::require_device_memory(scene);
   print_time(scene);
 }
 

@@ -53,6 +53,13 @@ json plan(const solver::Plan& all) {
   return parts;
 }
 
+json memory(const std::vector<solver::SpaceBytes>& spaces) {
+  if (spaces.empty()) return nullptr;
+  json bytes = json::object();
+  for (const auto& [space, most] : spaces) bytes[space] = most;
+  return bytes;
+}
+
 json tips(const solver::SeriesStatistics& tips, const std::optional<double>& correlation_tu) {
   const bool any = tips.n > 1;
   return {{"mean", mean(tips)},
@@ -123,23 +130,25 @@ const char* event_name(solver::TipEvent event, const char* with_run) {
 json summary_json(const solver::RunSummary& summary, bool deforms,
                   const std::optional<std::string>& failure) {
   const auto& phases = summary.phases;
-  return {{"model", summary.plan.in_words()},
-          {"plan", plan(summary.plan)},
-          {"steps", summary.steps},
-          {"t", number(summary.t)},
-          {"failure", failure ? json(*failure) : json(nullptr)},
-          {"warnings", summary.warnings},
-          {"substeps", {{"steps", summary.substepped_steps}, {"largest", summary.largest_substeps}}},
-          {"phases",
-           {{"excitation", number(phases.excitation)},
-            {"transfer", number(phases.transfer)},
-            {"mechanics", number(phases.mechanics)},
-            {"observe", number(phases.observe)},
-            {"output", number(phases.output)}}},
-          {"wall_s", number(summary.wall_s)},
-          {"throughput", {{"cell_steps_per_s", number(summary.cell_steps_per_s)}}},
-          {"mechanics", deforms ? mechanics(summary.mechanics) : json(nullptr)},
-          {"observables", observables(summary.observables)}};
+  return {
+      {"model", summary.plan.in_words()},
+      {"plan", plan(summary.plan)},
+      {"steps", summary.steps},
+      {"t", number(summary.t)},
+      {"failure", failure ? json(*failure) : json(nullptr)},
+      {"warnings", summary.warnings},
+      {"substeps", {{"steps", summary.substepped_steps}, {"largest", summary.largest_substeps}}},
+      {"phases",
+       {{"excitation", number(phases.excitation)},
+        {"transfer", number(phases.transfer)},
+        {"mechanics", number(phases.mechanics)},
+        {"observe", number(phases.observe)},
+        {"output", number(phases.output)}}},
+      {"wall_s", number(summary.wall_s)},
+      {"memory", {{"planned_bytes", memory(summary.plan.views())}, {"most_bytes", memory(summary.memory)}}},
+      {"throughput", {{"cell_steps_per_s", number(summary.cell_steps_per_s)}}},
+      {"mechanics", deforms ? mechanics(summary.mechanics) : json(nullptr)},
+      {"observables", observables(summary.observables)}};
 }
 
 }  // namespace myowave::apps

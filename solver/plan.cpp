@@ -66,8 +66,8 @@ PlannedPart excitation(const Scene& scene, const Sizes& sizes) {
               scene.scheme == Scheme::split ? "diffusion and reaction split, second order" : "explicit Euler",
               scene.time.dt, tiles ? "several steps a launch, tile by tile" : "one step a launch"),
           .why = "always",
-          .view_bytes = sizes.nodes * (tiles ? 4 : 3) * sizes.real +
-                        scene.stimuli.size() * sizeof(tissue::ActiveStimulus)};
+          .device_bytes = sizes.nodes * (tiles ? 4 : 3) * sizes.real +
+                          scene.stimuli.size() * sizeof(tissue::ActiveStimulus)};
 }
 
 PlannedPart active_tension(const Scene& scene, const Sizes& sizes) {
@@ -80,7 +80,7 @@ PlannedPart active_tension(const Scene& scene, const Sizes& sizes) {
     part.active = true;
     part.what = fmt::format("{} law, in the step of V and r", scene.tension.law);
     part.why = contracts(scene) ? "it contracts the sheet" : "output.tension = true";
-    part.view_bytes = sizes.nodes * (steps_in_tiles(metric_form(scene)) ? 2 : 1) * sizes.real;
+    part.device_bytes = sizes.nodes * (steps_in_tiles(metric_form(scene)) ? 2 : 1) * sizes.real;
   }
   return part;
 }
@@ -98,11 +98,11 @@ PlannedPart diffusion(const Scene& scene, const Sizes& sizes) {
                               !split && takes_metric_from_nodes<Space>(scene.grid.rows, scene.grid.columns)
                                   ? "weights from the element nodes, or 4 a node in single steps"
                                   : fmt::format("{} weights a node", weights));
-      part.view_bytes = weights * sizes.padded_nodes * sizes.real;
+      part.device_bytes = weights * sizes.padded_nodes * sizes.real;
       break;
     case MetricForm::expanded:
       part.what = "expanded form (Eq 24) on the deformed metric, 5 coefficients a node";
-      part.view_bytes = 5 * sizes.nodes * sizes.real;
+      part.device_bytes = 5 * sizes.nodes * sizes.real;
       break;
   }
   return part;
@@ -142,9 +142,11 @@ PlannedPart mechanics(const Scene& scene, const Sizes& sizes) {
                           (scene.grid.rows - 1) / m.cells_per_element,
                           (scene.grid.columns - 1) / m.cells_per_element, load, solves),
       .why = "[mechanics]; nodes and areas are output",
-      // Nodes that conduction feels, those of the last solve and of Newton's iteration, tension and
-      // energy; element matrices and their sums.
-      .view_bytes = (copies + 7) * vector + (copies + 2) * tension + 3 * sizeof(double) * sizes.elements +
+      // Nodes that conduction feels, and the tension of the excitation.
+      .device_bytes = vector + tension,
+      // Their copies; nodes of the last solve and of Newton's iteration, tension and energy; element
+      // matrices and their sums.
+      .host_bytes = (copies + 6) * vector + (copies + 1) * tension + 3 * sizeof(double) * sizes.elements +
                     elastic::linearization_entries * sizeof(double) * places +
                     elastic::NodalTangent::entries * sizeof(double) * sizes.element_nodes +
                     (sizeof(int) + sizeof(double)) * sizes.slots,
@@ -172,9 +174,9 @@ PlannedPart feedback(const Scene& scene, const Sizes& sizes) {
         "element nodes{} to the metric of the grid, where a node has moved",
         solves > 1 ? fmt::format(", extrapolated from {} solves to the middle of an interval,", solves) : "");
     part.why = solves > 1 ? "feedback.metric, feedback.time" : "feedback.metric";
-    if (form == MetricForm::conservative) part.view_bytes = 3 * sizes.padded_nodes * sizes.real;
+    if (form == MetricForm::conservative) part.device_bytes = 3 * sizes.padded_nodes * sizes.real;
     // Those of the earlier solves, and where they lead.
-    if (solves > 1) part.view_bytes += solves * 2 * sizeof(double) * sizes.element_nodes;
+    if (solves > 1) part.host_bytes += solves * 2 * sizeof(double) * sizes.element_nodes;
   } else {
     part.why = scene.mechanics ? "feedback.metric = \"none\": conduction ignores the deformation"
                                : "the sheet is rigid";
@@ -190,28 +192,32 @@ PlannedPart substeps(const Scene& scene, const Sizes& sizes) {
           .active = true,
           .what = "a stretch of steps that was unstable again in parts, from the state kept at its begin",
           .why = "accuracy.on_unstable = \"substep\"",
-          .view_bytes = sizes.nodes * (has_tension(scene) ? 3 : 2) * sizes.real};
+          .device_bytes = sizes.nodes * (has_tension(scene) ? 3 : 2) * sizes.real};
 }
 
 PlannedPart tips(const Scene& scene) {
+  constexpr std::uint64_t list = first_tips * sizeof(observe::PhaseSingularity) + sizeof(int);
   return {.part = "tips",
           .active = true,
           .what = fmt::format("looked for every {} t.u. for break-up and death, shown every {} t.u.",
                               scene.output.watch_every, scene.output.tips_every),
           .why = "always",
-          .view_bytes = copies * (first_tips * sizeof(observe::PhaseSingularity) + sizeof(int))};
+          .device_bytes = list,
+          .host_bytes = (copies - 1) * list};
 }
 
 PlannedPart probes(const Scene& scene, const Sizes& sizes) {
   const std::uint64_t number = scene.output.probes.size();
   if (number == 0) return {.part = "probes", .why = "output.probes is empty"};
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, scene.output.watch_every / scene.time.dt));
+  const std::uint64_t records = number * (steps + 3) * sizes.real;
   return {.part = "probes",
           .active = true,
           .what = fmt::format("{} nodes, V at each step for the periods, {} every {} t.u.", number,
                               has_tension(scene) ? "V, r and Ta" : "V and r", scene.output.probes_every),
           .why = "output.probes",
-          .view_bytes = number * ((steps + 3) * sizes.real * copies + sizeof(std::int64_t)),
+          .device_bytes = records + number * sizeof(std::int64_t),
+          .host_bytes = (copies - 1) * records,
           .other_bytes = number * steps * sizeof(double)};
 }
 
@@ -222,8 +228,9 @@ PlannedPart maps(const Scene& scene, const Sizes& sizes) {
           .what = fmt::format("activation, period and APD of each node, V looked at every {} t.u.",
                               ActivationMaps::look_every),
           .why = "output.maps = true",
-          .view_bytes = sizes.nodes * (sizeof(float) + sizeof(observe::ActivationRecord)),
-          // Six numbers and a count of each node, when the run ends.
+          .device_bytes = sizes.nodes * (sizeof(float) + sizeof(observe::ActivationRecord)),
+          // A copy, six numbers and a count of each node, when the run ends.
+          .host_bytes = (copies - 1) * sizes.nodes * sizeof(observe::ActivationRecord),
           .other_bytes = sizes.nodes * (6 * sizeof(double) + sizeof(int))};
 }
 
@@ -249,6 +256,7 @@ std::vector<PlannedPart> outputs(const Scene& scene, const Sizes& sizes) {
        .active = true,
        .what = "V, r and Ta in float64, as they come, are shown and go",
        .why = "always",
+       .host_bytes = (copies - 1) * sizes.nodes * sizes.real,  // one of them at a time
        .other_bytes = 3 * sizeof(double) * sizes.nodes}};
 }
 
@@ -269,8 +277,8 @@ Plan make_plan(const Scene& scene) {
   const auto nodes = static_cast<double>(sizes.nodes);
   Plan plan{{V_and_r, Ta, stencil, mechanics(scene, sizes), contraction(scene), metric,
              substeps(scene, sizes), tips(scene), probes(scene, sizes), maps(scene, sizes)},
-            static_cast<double>(V_and_r.view_bytes + Ta.view_bytes) / nodes,
-            static_cast<double>(stencil.view_bytes + metric.view_bytes) / nodes};
+            static_cast<double>(V_and_r.device_bytes + Ta.device_bytes) / nodes,
+            static_cast<double>(stencil.device_bytes + metric.device_bytes) / nodes};
   for (auto& part : outputs(scene, sizes)) plan.parts.push_back(std::move(part));
   for (const auto& one : scene.initial.preconditions) plan.parts.push_back(precondition(one));
   return plan;
@@ -281,6 +289,22 @@ std::uint64_t Plan::bytes() const {
   for (const auto& part : parts) sum += part.bytes();
   return sum;
 }
+
+std::uint64_t Plan::device_bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& part : parts) sum += part.device_bytes;
+  return sum;
+}
+
+std::vector<SpaceBytes> Plan::views() const {
+  std::uint64_t host = 0;
+  for (const auto& part : parts) host += part.host_bytes;
+  const std::string name = Space::memory_space::name();
+  if (one_memory) return {{name, device_bytes() + host}};
+  return {{name, device_bytes()}, {Kokkos::HostSpace::name(), host}};
+}
+
+bool has_device_memory() { return !one_memory; }
 
 std::vector<std::string> Plan::in_words() const {
   std::vector<std::string> words;

@@ -13,12 +13,19 @@ namespace myowave::solver {
 struct PlannedPart {
   std::string part{};  // "active tension"
   bool active = false;
-  std::string what{};             // the equation, kernel variant or file; empty where it is not active
-  std::string why{};              // it is there, or why it is not
-  std::uint64_t view_bytes = 0;   // in Kokkos Views, as long as the run lasts
-  std::uint64_t other_bytes = 0;  // on the host: tables, the factor (estimated), copies of the state
+  std::string what{};              // the equation, kernel variant or file; empty where it is not active
+  std::string why{};               // it is there, or why it is not
+  std::uint64_t device_bytes = 0;  // in Kokkos Views where the excitation runs, as long as the run lasts
+  std::uint64_t host_bytes = 0;    // in Views of the host beside them, which may be the same memory
+  std::uint64_t other_bytes = 0;   // on the host: tables, the factor (estimated), copies of the state
 
-  std::uint64_t bytes() const { return view_bytes + other_bytes; }
+  std::uint64_t bytes() const { return device_bytes + host_bytes + other_bytes; }
+};
+
+// Bytes of a run's Views in one of Kokkos' memory spaces.
+struct SpaceBytes {
+  std::string space{};  // Kokkos' name of it: "Host", "Cuda"
+  std::uint64_t bytes = 0;
 };
 
 struct Plan {
@@ -26,7 +33,11 @@ struct Plan {
   double state_bytes_per_node = 0;        // V, r and Ta, old and new
   double coefficient_bytes_per_node = 0;  // of the diffusion term, and what refreshes them
 
-  std::uint64_t bytes() const;
+  std::uint64_t bytes() const;         // in all
+  std::uint64_t device_bytes() const;  // of Views where the excitation runs
+  // By memory space, that one first, then the host's where it is another. What solver/memory_watch.hpp
+  // measures.
+  std::vector<SpaceBytes> views() const;
   // "part: what" of every active part.
   std::vector<std::string> in_words() const;
 };
@@ -34,5 +45,8 @@ struct Plan {
 // 64-bit arithmetic, nothing is allocated: sheets beyond any memory have a plan too.
 Plan make_plan(const Scene&);
 inline std::uint64_t memory_bytes(const Scene& scene) { return make_plan(scene).bytes(); }
+
+// Whether the excitation runs in a memory of its own, apart from the host's.
+bool has_device_memory();
 
 }  // namespace myowave::solver

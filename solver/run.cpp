@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "solver/denormals.hpp"
+#include "solver/device_memory.hpp"
 #include "solver/electromechanics.hpp"
 #include "solver/error.hpp"
 #include "solver/observers.hpp"
@@ -404,6 +405,7 @@ void require_runnable(const Scene& scene, const InitialState& state) {
     throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
                                  scene.grid.rows, scene.grid.columns));
   require_stable_step(scene);
+  require_device_memory(scene);
 }
 
 // What a run goes on from, and in which stage. Keeps a reference to the checkpoint.

@@ -254,7 +254,7 @@ TEST(Plan, CountsTheBytesThatKokkosAllocates) {
       const Recording seen = record([&] { test::recorded_run(scene); });
       const solver::Plan plan = solver::make_plan(scene);
       double views = 0;
-      for (const auto& one : plan.parts) views += static_cast<double>(one.view_bytes);
+      for (const auto& [space, bytes] : plan.views()) views += static_cast<double>(bytes);
       EXPECT_NEAR(views / static_cast<double>(seen.most_bytes), 1, 0.05)
           << file.stem() << " " << variant << ": " << views << " planned, " << seen.most_bytes
           << " allocated";

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <Kokkos_Core.hpp>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
@@ -241,11 +242,12 @@ TEST(RunFolder, TheManifestTellsHowToRepeatTheRun) {
 
 TEST(Summary, HasTheKeysOfTheContract) {
   solver::RunSummary summary;
-  summary.plan.parts = {{.part = "sheet", .active = true, .what = "flat", .why = "always", .view_bytes = 8},
+  summary.plan.parts = {{.part = "sheet", .active = true, .what = "flat", .why = "always", .device_bytes = 8},
                         {.part = "waves", .active = true, .what = "one", .why = "always"},
                         {.part = "mechanics", .why = "rigid"}};
   summary.steps = 100;
   summary.wall_s = 2;
+  summary.memory = {{"Cuda", 9}, {"Host", 7}};
   summary.cell_steps_per_s = 5e8;
   summary.mechanics.solves = 3;
   summary.substepped_steps = 40;
@@ -274,6 +276,9 @@ TEST(Summary, HasTheKeysOfTheContract) {
     EXPECT_TRUE(json["phases"][phase].is_number()) << phase;
   }
   EXPECT_EQ(json["wall_s"], 2);
+  EXPECT_EQ(json["memory"]["planned_bytes"],
+            (nlohmann::ordered_json{{Kokkos::DefaultExecutionSpace::memory_space::name(), 8}}));
+  EXPECT_EQ(json["memory"]["most_bytes"], (nlohmann::ordered_json{{"Cuda", 9}, {"Host", 7}}));
   EXPECT_EQ(json["throughput"]["cell_steps_per_s"], 5e8);
   for (const char* key : {"solves", "left_out", "newton_iterations", "newton_max", "factorizations", "shifts",
                           "not_elliptic", "min_J"}) {
