@@ -23,8 +23,8 @@ inline void flush_denormals_of_this_thread() {
 }
 
 // On every thread of the host's execution space and on the calling one.
-inline void flush_denormals(const Kokkos::DefaultHostExecutionSpace& host = {}) {
-  using Host = Kokkos::DefaultHostExecutionSpace;
+template <class Host = Kokkos::DefaultHostExecutionSpace>
+void flush_denormals(const Host& host = {}) {
   Kokkos::parallel_for(
       "myowave::solver::flush_denormals",
       Kokkos::RangePolicy<Host, Kokkos::Schedule<Kokkos::Static>>(host, 0, host.concurrency())

@@ -95,18 +95,19 @@ auto values_of(const tissue::ActiveStimulus& stimulus) {
 // For solves on a thread of their own. One thread, for the others belong to the steps. Not where one core has
 // everything to do.
 template <class ExecutionSpace>
-std::optional<Kokkos::DefaultHostExecutionSpace> second_host_instance() {
+std::optional<HostOf<ExecutionSpace>> second_host_instance() {
 #ifdef KOKKOS_ENABLE_SERIAL
   if constexpr (std::is_same_v<ExecutionSpace, Kokkos::Serial>) return std::nullopt;
 #endif
-  return own_host_instance(1);
+  return own_host_instance<HostOf<ExecutionSpace>>(1);
 }
 
 }  // namespace
 
 template <class ExecutionSpace, class Real>
-Electromechanics<ExecutionSpace, Real>::Electromechanics(const Execution& execution, const Scene& scene,
-                                                         const InitialState& state, PhaseSeconds& phases,
+Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionOn<ExecutionSpace>& execution,
+                                                         const Scene& scene, const InitialState& state,
+                                                         PhaseSeconds& phases,
                                                          MechanicsStatistics& statistics)
     : space_(execution.device),
       host_(execution.host),
@@ -144,8 +145,9 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const Execution& execut
   }
   if (scene.output.maps)
     activation_ = {
-        {"myowave::solver::activation_marks", 1, std::size_t(grid_.rows), std::size_t(grid_.columns)},
-        {"myowave::solver::activation", 1, std::size_t(grid_.rows), std::size_t(grid_.columns)}};
+        typename decltype(activation_)::Marks("myowave::solver::activation_marks", 1, grid_.rows,
+                                              grid_.columns),
+        typename decltype(activation_)::Records("myowave::solver::activation", 1, grid_.rows, grid_.columns)};
   // Single steps update r and Ta in place.
   if (steps_in_tiles(form_)) {
     spare_.r = View("myowave::solver::r_next", 1, grid_.rows, grid_.columns);
@@ -568,5 +570,13 @@ std::vector<double> Electromechanics<ExecutionSpace, Real>::download_nodes() con
 
 template class Electromechanics<Kokkos::DefaultExecutionSpace, double>;
 template class Electromechanics<Kokkos::DefaultExecutionSpace, float>;
+#ifdef MYOWAVE_HAS_DEVICE
+template class Electromechanics<Kokkos::DefaultHostExecutionSpace, double>;
+template class Electromechanics<Kokkos::DefaultHostExecutionSpace, float>;
+#endif
+#ifdef MYOWAVE_HAS_SERIAL_TOO
+template class Electromechanics<Kokkos::Serial, double>;
+template class Electromechanics<Kokkos::Serial, float>;
+#endif
 
 }  // namespace myowave::solver

@@ -42,13 +42,14 @@ struct Mirrored {
 template <class ExecutionSpace, class Real>
 class Electromechanics {
  public:
-  using Host = Kokkos::DefaultHostExecutionSpace;
+  using Host = HostOf<ExecutionSpace>;
   using Space = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, Space>;
 
   // Solves the loaded rest state (Ta = 0), the reference of all areas, where there is mechanics.
   // Errors: NumericalFailure.
-  Electromechanics(const Execution&, const Scene&, const InitialState&, PhaseSeconds&, MechanicsStatistics&);
+  Electromechanics(const ExecutionOn<ExecutionSpace>&, const Scene&, const InitialState&, PhaseSeconds&,
+                   MechanicsStatistics&);
 
   // A solve may be at work on what is in here.
   Electromechanics(const Electromechanics&) = delete;

@@ -10,6 +10,7 @@
 #include "solver/equibiaxial.hpp"
 #include "solver/equilibrium_failure.hpp"
 #include "solver/error.hpp"
+#include "solver/execution.hpp"
 #include "solver/mesh.hpp"
 #include "solver/mirror.hpp"
 #include "solver/newton.hpp"
@@ -301,8 +302,11 @@ void Equilibrium<ExecutionSpace>::load(const ExecutionSpace& space, StateReader&
 
 template class Equilibrium<Kokkos::DefaultHostExecutionSpace>;
 // A run solves on the host; the benchmarks and tests also on a device, where there is one.
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
+#ifdef MYOWAVE_HAS_DEVICE
 template class Equilibrium<Kokkos::DefaultExecutionSpace>;
+#endif
+#ifdef MYOWAVE_HAS_SERIAL_TOO
+template class Equilibrium<Kokkos::Serial>;
 #endif
 
 }  // namespace myowave::solver

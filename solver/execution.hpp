@@ -5,12 +5,31 @@
 #include <optional>
 #include <type_traits>
 
+#include "kernels/base/row_loop.hpp"
+
+// Every execution space of the build has its instantiations: Kokkos::DefaultExecutionSpace,
+// where that is a device's Kokkos::DefaultHostExecutionSpace too, and where that is not Serial but there is
+// one, Kokkos::Serial.
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+#define MYOWAVE_HAS_DEVICE
+#endif
+#if defined(KOKKOS_ENABLE_SERIAL) && (defined(KOKKOS_ENABLE_OPENMP) || defined(KOKKOS_ENABLE_THREADS))
+#define MYOWAVE_HAS_SERIAL_TOO
+#endif
+
 namespace myowave::solver {
 
-struct Execution {
-  Kokkos::DefaultExecutionSpace device{};    // the excitation
-  Kokkos::DefaultHostExecutionSpace host{};  // the mechanics
+// The mechanics is the host's: on its default space beside a device, else where the excitation is.
+template <class ExecutionSpace>
+using HostOf =
+    std::conditional_t<runs_on_host<ExecutionSpace>, ExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
+
+template <class ExecutionSpace>
+struct ExecutionOn {
+  ExecutionSpace device{};        // the excitation
+  HostOf<ExecutionSpace> host{};  // the mechanics
 };
+using Execution = ExecutionOn<Kokkos::DefaultExecutionSpace>;
 
 // The choices below stand in templates: only there is the branch that does not fit the backend left out.
 
