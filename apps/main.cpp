@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/help.hpp"
 #include "apps/report.hpp"
 #include "apps/schema.hpp"
 #include "apps/sweep.hpp"
@@ -236,11 +237,19 @@ int main(int argc, char** argv) {
   CLI::App* info =
       app.add_subcommand("info", "Print version, git hash, backends, devices and the Kokkos configuration");
 
+  std::string topic;
+  CLI::App* help = app.add_subcommand("help", "Explain a topic, or the options of a subcommand");
+  help->add_option("TOPIC", topic, "One of the topics below, or a subcommand");
+  help->footer(apps::topic_names());
+
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const auto is_command = [&](std::string_view word) {
+    return std::ranges::find(names, word) != names.end();
+  };
   // CLI11 would only say that a subcommand is missing.
-  const std::vector<std::string_view> names{"run",    "check", "describe", "stability", "reproduce",
-                                            "report", "sweep", "tradeoff", "info"};
-  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
-    const std::string meant = apps::did_you_mean(argv[1], names);
+  if (argc > 1 && argv[1][0] != '-' && !is_command(argv[1])) {
+    const std::string meant = apps::did_you_mean(argv[1], {names.begin(), names.end()});
     fmt::print(stderr,
                "myowave: there is no subcommand \"{}\"{}\nRun `myowave --help` for what can be asked.\n",
                argv[1], meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
@@ -268,5 +277,9 @@ int main(int argc, char** argv) {
     if (sweep.command->parsed()) sweep.run();
     if (tradeoff.command->parsed()) tradeoff.run();
     if (info->parsed()) apps::info();
+    if (help->parsed() && topic.empty()) fmt::print("{}\n{}", app.help(), apps::topic_names());
+    if (help->parsed() && !topic.empty())
+      fmt::print("{}",
+                 is_command(topic) ? app.get_subcommand(topic)->help("myowave") : apps::help_text(topic));
   });
 }
