@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Each header compiles alone, without a warning.
+#
+#   tests/build/headers.sh COMPILER [FLAG]... -- HEADER...
+set -euo pipefail
+
+compiler=()
+while [ "$1" != -- ]; do
+  compiler+=("$1")
+  shift
+done
+shift
+
+compile_alone() {
+  local header=${!#}
+  "${@:1:$#-1}" -fsyntax-only -Wall -Wextra -Wshadow -Werror -include "$header" -x c++ /dev/null ||
+    { echo "does not compile alone: $header"; return 1; }
+}
+export -f compile_alone
+printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile_alone "$@"' headers "${compiler[@]}"
