@@ -3,17 +3,15 @@
 // Elements write arrays of their own; every node then sums its contributions in a fixed order. No
 // atomics: the bits do not depend on the number of threads.
 //
-// | view          | shape         | unit         |                                                      |
-// |---------------|---------------|--------------|------------------------------------------------------|
-// | nodes         | (nodes, 2)    | length       | positions                                            |
-// | Ta            | (elements, 4) | kPa          | tension at the Gauss points                          |
-// | energy        | (2, elements) | kPa x area, 1 | Pi and smallest corner J of the element             |
-// | element       | (44, places)  | kPa x length, kPa | its residual, dof 2 c + i, and the lower triangle of
-// its tangent by rows | | residual      | (nodes, 2)    | kPa x length | dPi/dx, also at held nodes: what
-// holds them          | | nodal_tangent | (19, nodes)   | kPa          | K of the node's two rows, see
-// NodalTangent           | | slot_source   | (slots)       |              | entry nodes + node in
-// nodal_tangent                  | | values        | (slots)       | kPa          | lower triangle of K in
-// compressed rows               |
+//   view            shape           unit
+//   nodes           (nodes, 2)      length              positions
+//   Ta              (elements, 4)   kPa                 tension at the Gauss points
+//   energy          (2, elements)   kPa x area, -       Pi and smallest corner J of the element
+//   element         (44, places)    kPa x length, kPa   residual, dof 2 c + i; tangent, its lower half
+//   residual        (nodes, 2)      kPa x length        dPi/dx, also at held nodes: what holds them
+//   nodal_tangent   (19, nodes)     kPa                 K of the node's two rows, see NodalTangent
+//   slot_source     (slots)         -                   entry nodes + node in nodal_tangent
+//   values          (slots)         kPa                 lower triangle of K in compressed rows
 //
 // Element (I, J) stands at place node(I, J) + columns + 2: the elements around node n are then at
 // n, n + 1, n + columns + 1 and n + columns + 2, and the places that are no element hold zeros.
