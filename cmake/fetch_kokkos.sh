@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Unpacks Debian's Kokkos (OpenMP backend) into PREFIX without touching the system, for machines
-# whose own packages have none >= 4.6. Needs no root: apt runs with a state of its own whose only
-# source is suite `sid` of the archive that this machine's apt already uses.
+# whose own packages have none >= 4.6. Needs no root: private_apt.sh.
 #
 #   cmake/fetch_kokkos.sh PREFIX      -> PREFIX/usr        headers, libraries, CMake package
 #                                        PREFIX/runtime    the libc, libstdc++, libgomp they need
@@ -15,21 +14,15 @@ say() { printf 'kokkos: %s\n' "$*"; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-archive=$(apt-get indextargets --format '$(REPO_URI)|$(COMPONENT)|$(ORIGIN)' 'Created-By: Packages' |
-  awk -F'|' '$2 == "main" && $3 == "Debian" { print $1; exit }')
-[ -n "$archive" ] || { say "apt knows no Debian archive; run 'apt-get update', or give a Kokkos with -DKokkos_ROOT"; exit 1; }
-
-mkdir -p "$work"/{lists/partial,cache/archives/partial,debs}
-echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $archive sid main" >"$work/sources.list"
-apt=(apt-get -qq -o Dir::State::lists="$work/lists" -o Dir::Etc::sourcelist="$work/sources.list"
-  -o Dir::Etc::sourceparts=- -o Dir::Cache="$work/cache" -o APT::Sandbox::User= )
+source "$(dirname "$0")/private_apt.sh"
+archive=$(private_apt_archive) ||
+  { say "apt knows no Debian archive; run 'apt-get update', or give a Kokkos with -DKokkos_ROOT"; exit 1; }
 say "reading the package index of Debian sid (kept apart from this system's)"
-"${apt[@]}" update
-runtime_library=$(apt-cache -o Dir::State::lists="$work/lists" -o Dir::Etc::sourcelist="$work/sources.list" \
-  -o Dir::Etc::sourceparts=- -o Dir::Cache="$work/cache" depends libkokkos-dev |
-  awk '/Depends: libkokkos[0-9]/ { print $2; exit }')
+private_apt_open "$work/apt" "$archive" sid
+runtime_library=$(private_apt_cache depends libkokkos-dev | awk '/Depends: libkokkos[0-9]/ { print $2; exit }')
 say "unpacking libkokkos-dev and $runtime_library into $prefix"
-(cd "$work/debs" && "${apt[@]}" download libkokkos-dev/sid "$runtime_library/sid" libc6/sid libstdc++6/sid libgomp1/sid libgcc-s1/sid)
+mkdir "$work/debs"
+private_apt_download "$work/debs" libkokkos-dev/sid "$runtime_library/sid" libc6/sid libstdc++6/sid libgomp1/sid libgcc-s1/sid
 
 rm -rf "$prefix"
 mkdir -p "$prefix/runtime"
