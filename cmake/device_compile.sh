@@ -3,38 +3,58 @@
 # Kokkos built for it, and prints and judges what each kernel needs (kernel_resources.sh). It is a
 # compile check; it proves no run.
 #
-#   cmake/device_compile.sh cuda|hip KOKKOS_INCLUDE WORK SOURCE...
+#   cmake/device_compile.sh cuda|hip ARCHITECTURE KOKKOS_INCLUDE WORK SOURCE...
+#
+# ARCHITECTURE is sm_80 or sm_90 of CUDA, gfx90a or gfx942 of HIP. HIP's headers and device libraries are those of
+# $ROCM_PATH; where that is not set, of /opt/rocm, of what fetch_hip.sh unpacked, or of the system.
 #
 # Kokkos installs the headers of every backend. A few generated ones choose among them: copies of
 # these, edited for the wanted backend, go into WORK and first on the include path. Objects and
 # reports stay in WORK; a source none of whose files changed is not compiled again.
-# Exits 77 where the compiler is missing.
+# Exits 77 where the compiler is missing, or what it needs.
 set -euo pipefail
 
-backend=$1 kokkos=$2 work=$3
-shift 3
+backend=$1 architecture=$2 kokkos=$3 work=$4
+shift 4
 project=$(realpath "$(dirname "$0")/..")
 overlay=$work/overlay
 
+skip() { echo "skipped: $*"; exit 77; }
+
+case $backend/$architecture in
+  cuda/sm_80) defines=(KOKKOS_ARCH_AMPERE KOKKOS_ARCH_AMPERE80) ;;
+  cuda/sm_90) defines=(KOKKOS_ARCH_HOPPER KOKKOS_ARCH_HOPPER90) ;;
+  hip/gfx90a | hip/gfx942) defines=("KOKKOS_ARCH_AMD_GPU \"$architecture\"" "KOKKOS_ARCH_AMD_${architecture^^}") ;;
+  *) echo "no macros of Kokkos are known here for $backend $architecture"; exit 2 ;;
+esac
+
 find_cuda() {
-  compiler=$(PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin command -v nvcc) ||
-    { echo "skipped: no nvcc on PATH or in /usr/local/cuda"; exit 77; }
-  defines=(KOKKOS_ENABLE_CUDA KOKKOS_ENABLE_CUDA_LAMBDA KOKKOS_ARCH_HOPPER KOKKOS_ARCH_HOPPER90 'KOKKOS_ARCH_NVIDIA_GPU 90')
+  compiler=$(PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin command -v nvcc) || skip "no nvcc on PATH or in /usr/local/cuda"
+  defines+=(KOKKOS_ENABLE_CUDA KOKKOS_ENABLE_CUDA_LAMBDA)
   # A host function called from a kernel may be a mere warning to nvcc. FMT: see Targets.cmake. -cubin: without the
   # host's half of the object, which the host's own compiler makes anyway: a third of the time.
-  flags=(-x cu -cubin -arch=sm_90 --extended-lambda --expt-relaxed-constexpr -Xptxas -v -Werror cross-execution-space-call
-    -DFMT_USE_CONSTEXPR=1)
+  flags=(-x cu -cubin -arch="$architecture" --extended-lambda --expt-relaxed-constexpr -Xptxas -v
+    -Werror cross-execution-space-call -DFMT_USE_CONSTEXPR=1)
 }
 
 find_hip() {
-  local rocm=${ROCM_PATH:-/usr} bitcode
-  compiler=$(command -v clang++-19 || command -v amdclang++) || { echo "skipped: no clang++-19 or amdclang++ on PATH"; exit 77; }
-  bitcode=$(find "$rocm" -type d -name bitcode -path '*amdgcn*' -print -quit 2>/dev/null)
-  [ -f "$rocm/include/hip/hip_runtime.h" ] && [ -n "$bitcode" ] ||
-    { echo "skipped: no HIP headers and device libraries in $rocm (ROCM_PATH names another place)"; exit 77; }
-  defines=(KOKKOS_ENABLE_HIP 'KOKKOS_ARCH_AMD_GPU "gfx90a"' KOKKOS_ARCH_AMD_GFX90A)
-  flags=(-x hip -c --offload-arch=gfx90a --rocm-path="$rocm" --rocm-device-lib-path="$bitcode" --cuda-device-only
-    --no-gpu-bundle-output -Rpass-analysis=kernel-resource-usage)
+  local rocm bitcode='' prefixes=(/opt/rocm "$project/.deps/hip/usr" /usr)
+  [ -z "${ROCM_PATH:-}" ] || prefixes=("$ROCM_PATH")
+  for rocm in "${prefixes[@]}"; do
+    [ ! -f "$rocm/include/hip/hip_runtime.h" ] ||
+      bitcode=$(find "$rocm/" -type d -name bitcode -path '*amdgcn*' -print -quit 2>/dev/null) || true
+    [ -z "$bitcode" ] || break
+  done
+  [ -n "$bitcode" ] || skip "no HIP headers and device libraries in ${prefixes[*]} (ROCM_PATH names another place)"
+  # A ROCm's device libraries are for its own compiler.
+  compiler=$(command -v "$rocm/bin/amdclang++" clang++-19 amdclang++ | head -n 1) ||
+    skip "no clang++-19 or amdclang++ on PATH"
+  defines+=(KOKKOS_ENABLE_HIP)
+  flags=(-x hip -c --offload-arch="$architecture" --cuda-device-only --no-gpu-bundle-output)
+  # The code is linked too, GPU by GPU.
+  "$compiler" "${flags[@]}" -nogpuinc -nogpulib /dev/null -o /dev/null 2>/dev/null ||
+    skip "$compiler makes no $architecture code (Debian: lld-19 links it)"
+  flags+=(--rocm-path="$rocm" --rocm-device-lib-path="$bitcode" -Rpass-analysis=kernel-resource-usage)
 }
 
 # The headers that choose the backends, as Kokkos' own CMake would write them.
@@ -63,10 +83,11 @@ is_fresh() {
   [ -z "$(find "${files[@]}" -newer "$1" 2>&1)" ]
 }
 
+# Leaves the time it took in SOURCE's .time.
 compile() {
-  local source=$1 object=$2
-  "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" \
-    -MD -MF "$object.d" "$source" -o "$object.new" >"$object.log" 2>&1 || return 1
+  local source=$1 object=$2 TIMEFORMAT='%U s'
+  { time "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" \
+    -MD -MF "$object.d" "$source" -o "$object.new" >"$object.log" 2>&1; } 2>"$object.time" || return 1
   mv "$object.new" "$object"
 }
 
@@ -74,18 +95,21 @@ compile() {
 write_overlay
 object_of() { echo "$work/$(basename "${1%.cpp}").o"; }
 
-# As many at once as there are cores: together they take longer than all other tests.
+# As many at once as there are cores: together they take longer than all other tests. nproc itself heeds
+# OMP_NUM_THREADS, which ctest's other tests have at 1.
+cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
 for source in "$@"; do
   object=$(object_of "$source")
   rm -f "$object.failed"
-  while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n || true; done
+  echo "unchanged" >"$object.time"
+  while [ "$(jobs -rp | wc -l)" -ge "$cores" ]; do wait -n || true; done
   { is_fresh "$object" || compile "$source" "$object" || touch "$object.failed"; } &
 done
 wait
 failed=0 compiled=()
 for source in "$@"; do
   object=$(object_of "$source")
-  echo "$backend: ${source#"$project"/}"
+  echo "$architecture: ${source#"$project"/}  $(<"$object.time")"
   if [ -e "$object.failed" ]; then
     cat "$object.log"
     failed=1
