@@ -30,5 +30,5 @@ int main() {
       },
       Kokkos::Max<double>(fastest));
   std::printf("t = %g, %d solves, shortening %.3f, |f| up to %.3f\n", summary.t,
-              static_cast<int>(summary.mechanics.solves), summary.observables.shortening->second, fastest);
+              static_cast<int>(summary.mechanics.solves), summary.observables.shortening->first, fastest);
 }
