@@ -54,9 +54,9 @@ std::string values_of_hdf5(const fs::path& path) {
   return values;
 }
 
-std::string summary_without_times(const fs::path& path) {
+std::string summary_without_measurements(const fs::path& path) {
   auto summary = nlohmann::json::parse(read_text(path));
-  for (const char* key : {"phases", "wall_s", "throughput"}) summary.erase(key);
+  for (const char* key : {"phases", "wall_s", "throughput", "memory"}) summary.erase(key);
   return summary.dump(1);
 }
 
@@ -69,7 +69,7 @@ std::map<std::string, std::string> results(const fs::path& folder) {
     if (name == "manifest.json") {
       content[name] = "";  // when and where
     } else if (name == "summary.json") {
-      content[name] = summary_without_times(entry.path());
+      content[name] = summary_without_measurements(entry.path());
     } else {
       content[name] =
           entry.path().extension() == ".h5" ? values_of_hdf5(entry.path()) : read_text(entry.path());
