@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace myowave::testing_support {
@@ -34,8 +35,8 @@ namespace myowave::testing_support {
   if (failed.empty()) return ::testing::AssertionSuccess();
 
   // Against a zero tolerance every excess is infinite: there the difference decides.
-  std::stable_sort(failed.begin(), failed.end(), [](const Entry& a, const Entry& b) {
-    return a.excess != b.excess ? a.excess > b.excess : a.difference > b.difference;
+  std::sort(failed.begin(), failed.end(), [](const Entry& a, const Entry& b) {
+    return std::tuple(-a.excess, -a.difference, a.index) < std::tuple(-b.excess, -b.difference, b.index);
   });
   auto result = ::testing::AssertionFailure() << fmt::format(
                     "{} of {} entries differ by more than {} + {} |expected|; the worst:", failed.size(),

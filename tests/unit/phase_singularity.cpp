@@ -154,11 +154,11 @@ TEST(BilinearRoot, LiesInTheSquareAndSolvesBoth) {
     const Corners u{{z[0], z[1], z[2], z[3]}}, v{{z[4], z[5], z[6], z[7]}};
     if (winding_number(u, v) == 0) continue;
     ++roots;
-    const auto [s, t] = bilinear_root(u, v);
-    const auto interpolated = [s = s, t = t](const Corners& c) {
+    const auto [column, row] = bilinear_root(u, v);
+    const auto interpolated = [s = column, t = row](const Corners& c) {
       return (1 - t) * ((1 - s) * c.value[0] + s * c.value[1]) + t * (s * c.value[2] + (1 - s) * c.value[3]);
     };
-    EXPECT_TRUE(0 <= s && s <= 1 && 0 <= t && t <= 1);
+    EXPECT_TRUE(0 <= column && column <= 1 && 0 <= row && row <= 1);
     EXPECT_NEAR(interpolated(u), 0, 1e-12);
     EXPECT_NEAR(interpolated(v), 0, 1e-12);
   }
