@@ -62,6 +62,16 @@ bool is_for_show(const std::string& label) {
          (on_host && label == "myowave::observe::record_probes");
 }
 
+// The Threads backend waits for each kernel itself, and makes its scratch memory anew for larger teams.
+bool is_of_threads([[maybe_unused]] const std::string& label) {
+#ifdef KOKKOS_ENABLE_THREADS
+  return label.starts_with("Kokkos::ThreadsInternal::") ||
+         label == "HostSpace::impl_deallocate before free" || label == "Kokkos::thread_scratch";
+#else
+  return false;
+#endif
+}
+
 bool waits_for_all_instances(std::uint32_t device) {
   constexpr std::uint32_t all = 0;  // the number that no instance has
   return Kokkos::Tools::Experimental::identifier_from_devid(device).instance_id == all;
@@ -79,14 +89,15 @@ Recording record(const Action& action) {
   tools::set_begin_parallel_for_callback(add_kernel);
   tools::set_begin_parallel_reduce_callback(add_kernel);
   tools::set_begin_fence_callback([](const char* label, std::uint32_t device, std::uint64_t*) {
-    if (is_for_show(label)) return;
+    if (is_for_show(label) || is_of_threads(label)) return;
     recording->fences.emplace_back(label);
     if (waits_for_all_instances(device)) recording->fences_of_all.emplace_back(label);
   });
   tools::set_allocate_data_callback(
       [](Kokkos::Tools::SpaceHandle, const char* label, const void*, std::uint64_t) {
         // What reductions on a device work in is Kokkos' own, and grows to the largest of them.
-        if (!std::string(label).starts_with("Kokkos::Internal")) recording->allocations.emplace_back(label);
+        if (!std::string(label).starts_with("Kokkos::Internal") && !is_of_threads(label))
+          recording->allocations.emplace_back(label);
       });
   tools::set_begin_deep_copy_callback(record_copy);
   action();
