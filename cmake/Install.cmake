@@ -17,7 +17,9 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/myowaveConfig.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake DESTINATION ${package})
 
 if(MYOWAVE_APPS)
-  set_target_properties(myowave PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  # Kokkos may lie in .deps/, and what is inside the project is no link path to CMake.
+  set_target_properties(myowave PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON
+                        INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
   install(TARGETS myowave)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/scenes ${PROJECT_SOURCE_DIR}/apps/sweeps
           DESTINATION ${CMAKE_INSTALL_DATADIR}/myowave FILES_MATCHING PATTERN *.toml)
