@@ -3,7 +3,6 @@
 
 function label(folder, title) {
   sub(/README\.md$/, "", folder)
-  gsub(/\.\.\//, "", folder)
   gsub(/\//, "-", folder)
   title = tolower(title)
   gsub(/[^a-z0-9 _-]/, "", title)
@@ -11,11 +10,22 @@ function label(folder, title) {
   return "readme-" folder title
 }
 
+# A path beside the page, from the project's folder.
+function resolved(path,    folder) {
+  folder = page
+  sub(/[^\/]*$/, "", folder)
+  while (path ~ /^\.\.\//) {
+    path = substr(path, 4)
+    sub(/[^\/]+\/$/, "", folder)
+  }
+  return folder path
+}
+
 function target(link,    at) {
   if (link ~ /:\/\/|\.(png|svg)$|README\.md$/) return link
   at = index(link, "#")
   if (at == 0) return ""
-  return "@ref " label(at == 1 ? page : substr(link, 1, at - 1), substr(link, at + 1))
+  return "@ref " label(at == 1 ? page : resolved(substr(link, 1, at - 1)), substr(link, at + 1))
 }
 
 FNR == 1 { page = index(FILENAME, root "/") == 1 ? substr(FILENAME, length(root) + 2) : FILENAME }
