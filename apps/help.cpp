@@ -74,9 +74,8 @@ std::string help_text(std::string_view topic) {
     std::vector<std::string_view> names;
     for (const HelpTopic& one : topics) names.push_back(one.name);
     const std::string meant = did_you_mean(topic, names);
-    throw solver::InputError(fmt::format("myowave: there is no help on \"{}\"{}\n{}", topic,
-                                         meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
-                                         topic_names()));
+    throw solver::InputError(
+        fmt::format("myowave: there is no help on \"{}\"{}\n{}", topic, hint(meant), topic_names()));
   }
   const std::string_view file = embedded_file(found->file);
   return found->heading.empty() ? std::string(file) : section_of(file, found->heading);

@@ -252,7 +252,7 @@ int main(int argc, char** argv) {
     const std::string meant = apps::did_you_mean(argv[1], {names.begin(), names.end()});
     fmt::print(stderr,
                "myowave: there is no subcommand \"{}\"{}\nRun `myowave --help` for what can be asked.\n",
-               argv[1], meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
+               argv[1], apps::hint(meant));
     return 2;
   }
   try {

@@ -183,9 +183,8 @@ std::vector<FigureRecipe> choose_figures(const std::vector<std::string>& numbers
   for (const auto& number : numbers) {
     if (std::ranges::find(known, number) != known.end()) continue;
     const std::string meant = did_you_mean(number, known);
-    throw solver::InputError(fmt::format("there is no figure \"{}\"{}; figures: {}all", number,
-                                         meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
-                                         all));
+    throw solver::InputError(
+        fmt::format("there is no figure \"{}\"{}; figures: {}all", number, hint(meant), all));
   }
   std::vector<FigureRecipe> chosen;
   for (const auto& recipe : recipes)

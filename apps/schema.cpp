@@ -604,6 +604,10 @@ nlohmann::json effective_configuration(const solver::Scene& given) {
   return configuration;
 }
 
+std::string hint(std::string_view meant) {
+  return meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
+}
+
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& names) {
   const auto same = [](char left, char right) {
     return std::tolower(static_cast<unsigned char>(left)) == std::tolower(static_cast<unsigned char>(right));

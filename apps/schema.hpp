@@ -125,5 +125,7 @@ nlohmann::json effective_configuration(const solver::Scene&);
 
 // The name nearest to `word` by edit distance, or "" where none is near enough to be meant.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& names);
+// "; did you mean "..."?", empty where nothing is meant.
+std::string hint(std::string_view meant);
 
 }  // namespace myowave::apps

@@ -95,9 +95,7 @@ std::vector<solver::StabilityMap> choose_maps(const std::string& name) {
     all += fmt::format("{}{}", all.empty() ? "" : ", ", map.name);
   }
   const std::string meant = did_you_mean(name, names);
-  throw solver::InputError(fmt::format("there is no map \"{}\"{}; maps: {}", name,
-                                       meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
-                                       all));
+  throw solver::InputError(fmt::format("there is no map \"{}\"{}; maps: {}", name, hint(meant), all));
 }
 
 std::string map_csv(const solver::MapTable& table) {

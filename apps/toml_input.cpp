@@ -50,10 +50,6 @@ void Problems::throw_if_any() const {
   throw InputError(text);
 }
 
-std::string hint(std::string_view meant) {
-  return meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
-}
-
 std::string printable(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string result;

@@ -37,8 +37,6 @@ class Problems {
   std::set<std::tuple<bool, unsigned, unsigned, std::string>> lines_;
 };
 
-// "; did you mean "..."?", empty where nothing is meant.
-std::string hint(std::string_view meant);
 // Names and values as messages show them: short, without control characters.
 std::string printable(std::string_view text);
 std::string shown(const toml::node&);
