@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;
@@ -44,7 +39,7 @@ std::vector<std::string> blocks(const std::string& markdown, const std::string& 
 }
 
 TEST(Tutorial, DoesWhatItSays) {
-  const std::string tutorial = content_of(MYOWAVE_SOURCE_DIR "/apps/tutorial.md");
+  const std::string tutorial = read_text(MYOWAVE_SOURCE_DIR "/apps/tutorial.md");
   const TemporaryFolder temporary;
   const fs::path folder = temporary / "spirals";
   fs::create_directory(folder);
@@ -58,7 +53,7 @@ TEST(Tutorial, DoesWhatItSays) {
   const fs::path said = temporary / "said.txt";
   const int status =
       std::system(("bash " + (temporary / "commands.sh").string() + " >" + said.string() + " 2>&1").c_str());
-  const std::string output = content_of(said);
+  const std::string output = read_text(said);
   ASSERT_EQ(WEXITSTATUS(status), 0) << output;
 
   const auto lines = lines_of(output);
