@@ -130,8 +130,8 @@ struct RunSummary {
   // Steps that were taken in parts, preconditions too, and the largest number of parts.
   std::int64_t substepped_steps = 0, largest_substeps = 1;
   std::vector<std::string> warnings;
-  std::vector<SpaceBytes>
-      memory;  // the most at once; empty where it was not watched (solver/memory_watch.hpp)
+  // The most at once; empty where it was not watched (solver/memory_watch.hpp).
+  std::vector<SpaceBytes> memory;
   Observables observables;
 };
 
