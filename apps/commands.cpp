@@ -36,6 +36,7 @@
 #include "solver/memory_watch.hpp"
 #include "solver/run.hpp"
 #include "solver/stability.hpp"
+#include "solver/stages.hpp"
 
 namespace myowave::apps {
 namespace {

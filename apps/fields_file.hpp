@@ -20,7 +20,7 @@
 
 #include "apps/frame_shape.hpp"
 #include "apps/hdf5_handle.hpp"
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 
 namespace myowave::apps {
 

@@ -5,7 +5,7 @@
 #include "apps/frame_shape.hpp"
 #include "apps/picture.hpp"
 #include "apps/sheet_raster.hpp"
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 
 namespace myowave::apps {
 

@@ -14,6 +14,7 @@
 #include "apps/signals.hpp"
 #include "apps/state_cache.hpp"
 #include "solver/error.hpp"
+#include "solver/run.hpp"
 
 namespace myowave::apps {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 
 namespace myowave::apps {
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 
 namespace myowave::apps {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 
 namespace myowave::apps {
 

@@ -13,7 +13,7 @@
 #include "apps/schema.hpp"
 #include "apps/summary_file.hpp"
 #include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/stages.hpp"
 
 namespace myowave::apps {
 namespace {

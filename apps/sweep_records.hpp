@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::apps {

@@ -9,6 +9,7 @@
 #include "apps/initial_state.hpp"
 #include "apps/schema.hpp"
 #include "apps/state_cache.hpp"
+#include "solver/stages.hpp"
 
 namespace myowave::apps {
 namespace {

@@ -24,6 +24,7 @@
 #include "apps/signals.hpp"
 #include "apps/tradeoff_output.hpp"
 #include "solver/error.hpp"
+#include "solver/stages.hpp"
 
 namespace myowave::apps {
 namespace {

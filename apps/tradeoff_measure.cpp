@@ -10,6 +10,7 @@
 #include "apps/progress_line.hpp"
 #include "apps/resample.hpp"
 #include "apps/signals.hpp"
+#include "solver/run.hpp"
 
 namespace myowave::apps {
 namespace {

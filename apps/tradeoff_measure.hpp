@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 
 namespace myowave::apps {
 

@@ -16,7 +16,7 @@
 #include "solver/equilibrium.hpp"
 #include "solver/execution.hpp"
 #include "solver/extrapolation.hpp"
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 #include "solver/select_model.hpp"
 #include "solver/stability.hpp"
 #include "solver/stimulus_schedule.hpp"

@@ -8,7 +8,7 @@
 #include "solver/area_sample.hpp"
 #include "solver/breakup.hpp"
 #include "solver/rhythm.hpp"
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 #include "solver/scene.hpp"
 #include "solver/tip_trajectory.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "kernels/elastic/kinematics.hpp"
 #include "solver/error.hpp"
+#include "solver/run.hpp"
 
 namespace myowave::solver {
 namespace {

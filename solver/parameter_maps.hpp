@@ -5,7 +5,7 @@
 #include <string>
 
 #include "solver/map_table.hpp"
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::solver {

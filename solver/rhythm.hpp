@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 #include "solver/statistics.hpp"
 
 namespace myowave::solver {

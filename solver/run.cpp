@@ -12,6 +12,7 @@
 #include "solver/error.hpp"
 #include "solver/observers.hpp"
 #include "solver/stability.hpp"
+#include "solver/stages.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -383,23 +384,6 @@ InitialState run_stage(const Scene& scene, const RunControl& control, InitialSta
              : Stage<double>(scene, control, sink, summary, whole, role).run(std::move(state), saved);
 }
 
-Scene precondition_scene(const Scene& scene, const Precondition& precondition) {
-  Scene stage = scene;
-  stage.excitation = precondition.excitation;
-  stage.tension = precondition.tension;
-  stage.time.t_end = precondition.duration;
-  stage.stimuli.clear();
-  stage.output.probes.clear();
-  stage.output.maps = false;
-  if (!precondition.contraction)
-    stage.mechanics.reset();
-  else if (stage.mechanics)
-    stage.mechanics->contraction = true;
-  else
-    throw InputError("initial.precondition: contraction = true needs a [mechanics] section");
-  return stage;
-}
-
 void require_runnable(const Scene& scene, const InitialState& state) {
   if (state.rows != scene.grid.rows || state.columns != scene.grid.columns)
     throw InputError(fmt::format("the initial state is {} x {}, the grid {} x {}", state.rows, state.columns,
@@ -430,22 +414,6 @@ InitialState blank_state(const Scene& scene) {
 }
 
 }  // namespace
-
-std::vector<Scene> stages_of(const Scene& scene) {
-  std::vector<Scene> stages;
-  for (const auto& precondition : scene.initial.preconditions)
-    stages.push_back(precondition_scene(scene, precondition));
-  stages.push_back(scene);
-  // Ta is part of the state that a later stage starts from.
-  for (std::size_t n = stages.size() - 1; n-- > 0;) stages[n].output.tension = has_tension(stages[n + 1]);
-  return stages;
-}
-
-void require_stable_step(const Scene& scene) {
-  require_stable(scene, "");
-  for (const auto& precondition : scene.initial.preconditions)
-    require_stable(precondition_scene(scene, precondition), " during a precondition");
-}
 
 InitialState make_initial_state(const Scene& scene) {
   const int rows = scene.grid.rows, columns = scene.grid.columns;

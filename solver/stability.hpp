@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run_output.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::solver {

@@ -11,7 +11,7 @@
 #include "apps/picture.hpp"
 #include "apps/plot.hpp"
 #include "apps/run_results.hpp"
-#include "solver/run.hpp"
+#include "solver/statistics.hpp"
 
 namespace myowave::apps {
 

@@ -10,7 +10,7 @@
 
 #include "apps/scene_file.hpp"
 #include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/stages.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 

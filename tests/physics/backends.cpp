@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/electromechanics.hpp"
+#include "solver/run.hpp"
 #include "tests/support/allclose.hpp"
 
 namespace myowave {

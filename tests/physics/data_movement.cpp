@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/electromechanics.hpp"
+#include "solver/run.hpp"
 
 namespace myowave {
 namespace {

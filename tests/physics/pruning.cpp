@@ -12,6 +12,7 @@
 
 #include "apps/scene_file.hpp"
 #include "solver/run.hpp"
+#include "solver/stages.hpp"
 #include "tests/support/plain_sheet.hpp"
 #include "tests/support/recording_sink.hpp"
 

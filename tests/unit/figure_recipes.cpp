@@ -11,7 +11,7 @@
 #include "apps/reproduce.hpp"
 #include "apps/scene_file.hpp"
 #include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/stages.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {
