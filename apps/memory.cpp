@@ -30,7 +30,9 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 void require_memory(const solver::Scene& scene) {
-  std::uint64_t needed = solver::memory_bytes(scene);
+  const solver::Plan plan = solver::make_plan(scene);
+  // What a device holds is refused there (solver/device_memory.hpp).
+  std::uint64_t needed = plan.bytes() - (solver::has_device_memory() ? plan.device_bytes() : 0);
   if (scene.initial.dx > 0) {
     const solver::GridSettings start = grid_of_start(scene);
     needed += 3 * sizeof(double) * static_cast<std::uint64_t>(start.rows) *
