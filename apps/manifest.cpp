@@ -2,10 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <hdf5.h>
-#include <png.h>
 #include <sys/utsname.h>
-#include <toml++/toml.h>
 
 #include <Kokkos_Core.hpp>
 #include <ctime>
@@ -13,17 +10,13 @@
 #include <string>
 #include <thread>
 
+#include "apps/library_versions.hpp"
 #include "myowave_version.hpp"
 
 namespace myowave::apps {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-// A version coded as a number, MAJOR major + MINOR minor + patch.
-std::string dotted(int code, int major, int minor) {
-  return fmt::format("{}.{}.{}", code / major, code % major / minor, code % minor);
-}
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -52,15 +45,9 @@ std::string compiler() {
 }
 
 json libraries() {
-  unsigned major = 0, minor = 0, release = 0;
-  H5get_libversion(&major, &minor, &release);
-  return {{"kokkos", dotted(KOKKOS_VERSION, 10000, 100)},
-          {"hdf5", fmt::format("{}.{}.{}", major, minor, release)},
-          {"libpng", png_get_libpng_ver(nullptr)},
-          {"fmt", dotted(FMT_VERSION, 10000, 100)},
-          {"tomlplusplus", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
-          {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                        NLOHMANN_JSON_VERSION_PATCH)}};
+  json versions{{"kokkos", dotted(KOKKOS_VERSION, 10000, 100)}};
+  versions.update(library_versions());
+  return versions;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "apps/axis_table.hpp"
 #include "apps/content_hash.hpp"
 #include "apps/memory.hpp"
 #include "apps/scene_tables.hpp"
@@ -236,7 +237,7 @@ class SweepReader {
     const std::size_t length = plan_.axes.front().values.size();
     for (const SweepAxis& axis : plan_.axes) {
       if (axis.values.size() == length) continue;
-      problems_.add(axis.values.front().place,
+      problems_.add(region_of(axis.values.front().place),
                     fmt::format("combine = \"zip\": axis \"{}\" has {} values, \"{}\" has {}", axis.key,
                                 axis.values.size(), plan_.axes.front().key, length));
     }
@@ -338,7 +339,7 @@ class SweepReader {
         if (name == key) problems_.add(node->source(), message);
       for (std::size_t axis = 0; axis < run.at.size(); ++axis)
         if (plan_.axes[axis].key == key)
-          problems_.add(plan_.axes[axis].values[run.at[axis]].place,
+          problems_.add(region_of(plan_.axes[axis].values[run.at[axis]].place),
                         fmt::format("value {} of axis \"{}\": {}", run.at[axis] + 1, key, message));
     });
   }

@@ -1,11 +1,14 @@
 #include "apps/toml_input.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fstream>
 
+#include "apps/schema.hpp"
 #include "solver/error.hpp"
 
 namespace myowave::apps {
@@ -101,6 +104,18 @@ std::string toml_value(const toml::node& node) {
     return "{" + text + "}";
   }
   return toml_string(shown(node));  // a date or time, which no key takes
+}
+
+void require_known_keys(const toml::table& table, std::string_view section,
+                        const std::vector<std::string_view>& names, Problems& problems) {
+  for (const auto& [name, node] : table) {
+    if (std::ranges::find(names, name.str()) != names.end()) continue;
+    const std::string help = hint(did_you_mean(name.str(), names));
+    problems.add(name.source(),
+                 fmt::format("unknown key \"{}\"{}{}", printable(name.str()),
+                             section.empty() ? "" : fmt::format(" in [{}]", section),
+                             help.empty() ? fmt::format("; keys: {}", fmt::join(names, ", ")) : help));
+  }
 }
 
 namespace {

@@ -46,6 +46,10 @@ std::string toml_string(std::string_view text);
 // The value on one line, as an override gives it.
 std::string toml_value(const toml::node&);
 
+// Reports the keys of a table that are none of `names`.
+void require_known_keys(const toml::table&, std::string_view section,
+                        const std::vector<std::string_view>& names, Problems&);
+
 // Errors: InputError where there is no such file, or one that is no `kind` ("scene", "sweep").
 std::string toml_text(const std::filesystem::path& file, std::string_view kind);
 // Errors: InputError with the place where the text is no TOML.

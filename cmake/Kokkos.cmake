@@ -59,13 +59,14 @@ function(require_kokkos_of_preset)
 endfunction()
 require_kokkos_of_preset()
 
-# Kernels call constexpr functions of the standard library; nvcc lets them by a flag, which Kokkos passes on
-# only where it was built with Kokkos_ENABLE_CUDA_CONSTEXPR.
-if(myowave_backend STREQUAL "CUDA" AND Kokkos_CXX_COMPILER_ID STREQUAL "NVIDIA"
-   AND NOT "CUDA_CONSTEXPR" IN_LIST Kokkos_OPTIONS)
-  set(MYOWAVE_NEEDS_RELAXED_CONSTEXPR ON)
-endif()
-if(myowave_backend STREQUAL "CUDA" AND Kokkos_CXX_COMPILER_ID STREQUAL "NVIDIA" AND MYOWAVE_APPS)
-  message(WARNING "nvcc is known not to compile toml++ (its issue 213), which the myowave command needs. The libraries and the "
-                  "benchmarks are built with -DMYOWAVE_APPS=OFF -DMYOWAVE_TESTS=OFF.")
+if(myowave_backend STREQUAL "CUDA" AND Kokkos_CXX_COMPILER_ID STREQUAL "NVIDIA")
+  # Kernels call constexpr functions of the standard library; nvcc lets them by a flag, which Kokkos passes on
+  # only where it was built with Kokkos_ENABLE_CUDA_CONSTEXPR.
+  if(NOT "CUDA_CONSTEXPR" IN_LIST Kokkos_OPTIONS)
+    set(MYOWAVE_NEEDS_RELAXED_CONSTEXPR ON)
+  endif()
+  # Sources without Kokkos go to the compiler that nvcc_wrapper has for the host's half.
+  if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")
+    set(MYOWAVE_HOST_ONLY --host-only)
+  endif()
 endif()

@@ -2,12 +2,12 @@
 #include "apps/run_jobs.hpp"
 
 #include <gmock/gmock.h>
-#include <toml++/toml.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "apps/run_results.hpp"
+#include "apps/scene_file.hpp"
 #include "myowave_version.hpp"
 #include "solver/error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -47,14 +47,16 @@ Told run(const std::vector<Job>& jobs, const fs::path& folder, int parallel = 2)
 }
 
 TEST(SceneText, SetsWhatIsNamedAndKeepsTheRest) {
-  SceneText scene("[grid]\nn = 5\n[[stimulus]]\namplitude = 1\n[[stimulus]]\namplitude = 2\n");
-  scene.set("grid.dx", "0.3").set("stimulus.1.amplitude", "[7, 8]").set("time.t_end", "4.5");
-  const toml::table read = toml::parse(scene.text());
-  EXPECT_EQ(read["grid"]["n"].value<int>(), 5);
-  EXPECT_EQ(read["grid"]["dx"].value<double>(), 0.3);
-  EXPECT_EQ(read["time"]["t_end"].value<double>(), 4.5);
-  EXPECT_EQ(read["stimulus"][0]["amplitude"].value<int>(), 1);
-  EXPECT_EQ(read["stimulus"][1]["amplitude"][1].value<int>(), 8);
+  SceneText text("[grid]\nn = 31\n[[stimulus]]\namplitude = 1\n[[stimulus]]\namplitude = 2\n");
+  text.set("grid.dx", "0.3").set("stimulus.1.region", "{columns = [7, 8]}").set("time.t_end", "4.5");
+  const solver::Scene scene = parse_scene(text.text(), "scene.toml");
+  EXPECT_EQ(scene.grid.columns, 31);
+  EXPECT_EQ(scene.grid.dx, 0.3);
+  EXPECT_EQ(scene.time.t_end, 4.5);
+  EXPECT_EQ(scene.stimuli[0].amplitude, 1);
+  EXPECT_EQ(scene.stimuli[0].shape, solver::Stimulus::Shape::all);
+  EXPECT_EQ(scene.stimuli[1].amplitude, 2);
+  EXPECT_EQ(scene.stimuli[1].columns[1], 8);
 }
 
 // A run that goes on from the state of another is the same as one run through both times.

@@ -1,4 +1,4 @@
-#include "apps/sweep_axis.hpp"
+#include "apps/axis_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,6 +24,11 @@ nlohmann::ordered_json json_of(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return number->get();
   if (const auto* flag = node.as_boolean()) return flag->get();
   return toml_value(node);
+}
+
+Place place_of(const toml::node& node) {
+  const toml::source_position begin = node.source().begin;
+  return {begin.line, begin.column};
 }
 
 // What an axis varies: a key of the schema, or a whole section of it.
@@ -156,7 +161,7 @@ class AxisReader {
     if (values == nullptr || values->empty() || values->size() > most_runs)
       return bad("values", fmt::format("an array of 1 to {} values", most_runs));
     for (const toml::node& value : *values) {
-      axis_.values.push_back({override_value(varied_, value, folder), json_of(value), value.source()});
+      axis_.values.push_back({override_value(varied_, value, folder), json_of(value), place_of(value)});
       if (varied_.key == nullptr && !has("names")) {
         problems_.add(value.source(),
                       fmt::format("{}.names is missing: tables show values of \"{}\" by their names",
@@ -168,7 +173,8 @@ class AxisReader {
     std::set<std::string> seen, names;
     for (const auto& value : axis_.values) {
       if (!seen.insert(value.toml).second || !names.insert(value.shown.dump()).second)
-        problems_.add(value.place, fmt::format("{}: {} stands there twice", section_, value.shown.dump()));
+        problems_.add(region_of(value.place),
+                      fmt::format("{}: {} stands there twice", section_, value.shown.dump()));
     }
   }
 
@@ -191,7 +197,7 @@ class AxisReader {
     if (varied_.key == nullptr || varied_.key->name != "seed")
       return bad("key", "\"initial.seed\" where there are seeds");
     for (std::int64_t seed = 1; seed <= *count; ++seed)
-      axis_.values.push_back({std::to_string(seed), seed, table_.get("seeds")->source()});
+      axis_.values.push_back({std::to_string(seed), seed, place_of(*table_.get("seeds"))});
   }
 
   void read_range(const std::optional<LatinHypercube>& sampling, std::size_t number) {
@@ -250,7 +256,7 @@ class AxisReader {
                          value == std::round(value) && std::abs(value) < 1e15;
     nlohmann::ordered_json shown = value;
     if (integer) shown = std::int64_t(value);
-    axis_.values.push_back({shown.dump(), shown, table_.get("min")->source()});
+    axis_.values.push_back({shown.dump(), shown, place_of(*table_.get("min"))});
   }
 
   const toml::table& table_;
@@ -261,18 +267,6 @@ class AxisReader {
 };
 
 }  // namespace
-
-void require_known_keys(const toml::table& table, std::string_view section,
-                        const std::vector<std::string_view>& names, Problems& problems) {
-  for (const auto& [name, node] : table) {
-    if (std::ranges::find(names, name.str()) != names.end()) continue;
-    const std::string help = hint(did_you_mean(name.str(), names));
-    problems.add(name.source(),
-                 fmt::format("unknown key \"{}\"{}{}", printable(name.str()),
-                             section.empty() ? "" : fmt::format(" in [{}]", section),
-                             help.empty() ? fmt::format("; keys: {}", fmt::join(names, ", ")) : help));
-  }
-}
 
 SweepAxis read_axis(const toml::table& table, const std::filesystem::path& folder,
                     const std::optional<LatinHypercube>& sampling, std::size_t number, Problems& problems) {
