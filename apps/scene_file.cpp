@@ -459,16 +459,18 @@ class SceneReader {
   }
 
   // A preset's dt is for its own spacing and D = C_m; up to a fifth more of D dt / dx^2 is as stable and
-  // nearly as accurate. Of the shortest interval of outputs it is a whole part.
+  // nearly as accurate, and so is up to a fifth more to be a whole part of the shortest interval of outputs.
   double dt_of_preset(double spacing) const {
+    constexpr double a_fifth_more = 1.2, rounding = 1e-9;
     const Preset& preset = presets()[static_cast<std::size_t>(scene_.preset)];
     const PresetValue& dx = *find_value(preset, "accuracy.dx", scene_.mechanics.has_value());
     const double finer = std::strtod(std::string(dx.value).c_str(), nullptr) / spacing;
-    const double parts = finer * finer * scene_.excitation.D / scene_.excitation.C_m / 1.2;
+    const double parts = finer * finer * scene_.excitation.D / scene_.excitation.C_m / a_fifth_more;
     const double longest = scene_.time.dt / std::max(1.0, std::ceil(parts));
     const solver::OutputSettings& output = scene_.output;
     const double interval = std::min({output.every, output.tips_every, output.probes_every});
-    return interval / std::ceil(interval / longest - 1e-9);
+    const double steps = interval / longest, fewer = std::floor(steps);
+    return interval / (a_fifth_more * fewer > steps - rounding ? fewer : std::ceil(steps));
   }
 
   void check_time() {

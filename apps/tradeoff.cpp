@@ -141,16 +141,21 @@ class Experiment {
     if (measures.empty())
       throw solver::NumericalFailure(fmt::format("no level of the reference came to its end; the last one {}",
                                                  study_.reference_runs.back().trouble));
-    const auto starts = is_chaotic(measures) ? run_starts(done.front()) : std::vector<Measures>();
-    study_.reference = make_reference(std::move(done), measures, starts);
+    std::vector<Measures> from_starts;
+    if (is_chaotic(measures)) {
+      make_starts();
+      from_starts = run_starts(done.front());
+    }
+    study_.reference = make_reference(std::move(done), measures, from_starts);
   }
 
   // In rounds of all settings, each round in another order, so that what changes with time in the machine's
-  // speed meets all alike. Errors: Interrupted.
+  // speed meets all alike. The rounds of a chaotic scene are its starts. Errors: Interrupted.
   void run_settings() {
     std::mt19937 engine(20040601);
     double spent = 0;
-    for (int round = 0; round < request_.repetitions; ++round) {
+    const int rounds = starts_.empty() ? request_.repetitions : request_.starts;
+    for (int round = 0; round < rounds; ++round) {
       std::vector<Trial*> order;
       for (Trial& trial : study_.trials)
         if (trial.scene && trial.trouble.empty()) order.push_back(&trial);
@@ -163,7 +168,7 @@ class Experiment {
           if (round == 0) trial->trouble = "left out: the budget was spent";
           continue;
         }
-        run_trial(*trial);
+        run_trial(*trial, starts_.empty() ? start_ : starts_[round]);
         if (!trial->wall_s.empty()) spent += trial->wall_s.back();
       }
     }
@@ -178,18 +183,23 @@ class Experiment {
     return scene;
   }
 
-  std::vector<Measures> run_starts(int k) {
+  // Of a chaotic scene, from noise.
+  void make_starts() {
     constexpr const char* noise = "initial.noise=1e-3";
-    std::vector<Measures> starts;
-    for (int seed = 1; seed <= request_.starts; ++seed) {
-      const solver::InitialState start =
-          start_of(variants_.scene({"accuracy.dx=0", noise, fmt::format("initial.seed={}", seed)}));
-      const std::string name = fmt::format("reference, dx / {}, start {} of {}", k, seed, request_.starts);
-      MeasuredRun measured = measure(reference_scene(k), start, name);
+    for (int seed = 1; seed <= request_.starts; ++seed)
+      starts_.push_back(
+          start_of(variants_.scene({"accuracy.dx=0", noise, fmt::format("initial.seed={}", seed)})));
+  }
+
+  std::vector<Measures> run_starts(int k) {
+    std::vector<Measures> measures;
+    for (std::size_t n = 0; n < starts_.size(); ++n) {
+      const std::string name = fmt::format("reference, dx / {}, start {} of {}", k, n + 1, starts_.size());
+      MeasuredRun measured = measure(reference_scene(k), starts_[n], name);
       tell(fmt::format("{}: {:.3g} s", name, measured.wall_s));
-      starts.push_back(std::move(measured.measures));
+      measures.push_back(std::move(measured.measures));
     }
-    return starts;
+    return measures;
   }
 
   // The scene itself and the plane wave.
@@ -200,12 +210,13 @@ class Experiment {
     return run;
   }
 
-  void run_trial(Trial& trial) {
+  void run_trial(Trial& trial, const solver::InitialState& start) {
     const std::string& name = trial.setting.name;
     try {
-      MeasuredRun run = trial.measures ? measure_scene(*trial.scene, start_, study_.own.grid, sampling_, name)
-                                       : measure(*trial.scene, start_, name);
-      if (!trial.measures) trial.measures = std::move(run.measures);
+      MeasuredRun run = trial.runs.empty()
+                            ? measure(*trial.scene, start, name)
+                            : measure_scene(*trial.scene, start, study_.own.grid, sampling_, name);
+      if (trial.runs.empty() || !starts_.empty()) trial.runs.push_back(std::move(run.measures));
       trial.wall_s.push_back(run.wall_s);
       trial.cell_steps_per_s.push_back(run.cell_steps_per_s);
       tell(fmt::format("{}: {:.3g} s", name, run.wall_s));
@@ -222,6 +233,7 @@ class Experiment {
   const TradeoffRequest& request_;
   Sampling sampling_;
   solver::InitialState start_;
+  std::vector<solver::InitialState> starts_;  // of a chaotic scene
 };
 
 void run_all(Study& study, const Variants& variants, const TradeoffRequest& request,
@@ -237,7 +249,7 @@ void run_all(Study& study, const Variants& variants, const TradeoffRequest& requ
   }
   if (!study.reference) return;
   for (Trial& trial : study.trials)
-    if (trial.measures) trial.errors = errors_of(*trial.measures, *study.reference);
+    if (!trial.runs.empty()) trial.errors = errors_of(trial.runs, *study.reference);
 }
 
 std::string targets_text(const std::vector<ErrorTarget>& targets) {
@@ -251,7 +263,7 @@ std::string errors_text(const Errors& errors, const std::vector<ErrorTarget>& ta
   std::vector<std::string> texts;
   for (const auto& [name, largest] : targets)
     texts.push_back(
-        fmt::format("{} {:.3g} {}", name, errors.find(name)->second, find_observable(name)->unit));
+        fmt::format("{} {:.3g} {}", name, errors.find(name)->second.value, find_observable(name)->unit));
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 

@@ -19,6 +19,7 @@ using Kind = Observable::Kind;
 using Chaos = Observable::Chaos;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 constexpr std::array all{
     Observable{"cv", "speed of a plane wave", "%", Kind::relative, Chaos::same},
@@ -31,12 +32,14 @@ constexpr std::array all{
     Observable{"tip", "place of the tips at the end", "length units", Kind::tips, Chaos::left_out},
     Observable{"core_radius", "radius of the core", "%", Kind::relative, Chaos::left_out},
     Observable{"drift", "speed of the drift", "length units/t.u.", Kind::absolute, Chaos::left_out},
-    Observable{"breakup", "time of break-up", "t.u.", Kind::absolute, Chaos::left_out},
+    Observable{"breakup", "time of break-up", "t.u.", Kind::event, Chaos::statistic},
     Observable{"tips", "mean number of tips", "%", Kind::relative, Chaos::statistic_only},
     Observable{"area_mean", "mean area", "%", Kind::relative, Chaos::statistic_only},
 };
 
-bool is_number(const Observable& one) { return one.kind == Kind::relative || one.kind == Kind::absolute; }
+bool is_number(const Observable& one) {
+  return one.kind == Kind::relative || one.kind == Kind::absolute || one.kind == Kind::event;
+}
 
 bool is_statistic(const Observable& one) {
   return one.chaos == Chaos::statistic || one.chaos == Chaos::statistic_only;
@@ -101,8 +104,11 @@ std::optional<double> tip_error(std::span<const solver::Tip> a, std::span<const 
   if (a.empty() || b.empty()) return std::nullopt;
   double sum = 0;
   for (const auto& expected : b) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& tip : a) nearest = std::min(nearest, std::hypot(tip.x - expected.x, tip.y - expected.y));
+    double nearest = infinite;
+    for (const auto& tip : a)
+      if (tip.charge == expected.charge)
+        nearest = std::min(nearest, std::hypot(tip.x - expected.x, tip.y - expected.y));
+    if (nearest == infinite) return std::nullopt;
     sum += nearest;
   }
   return sum / static_cast<double>(b.size());
@@ -110,7 +116,7 @@ std::optional<double> tip_error(std::span<const solver::Tip> a, std::span<const 
 
 // In the unit of the error.
 double in_unit(const Observable& one, double difference, double value) {
-  return one.kind == Kind::absolute ? std::abs(difference) : percent_of(difference, value).value_or(unknown);
+  return one.kind == Kind::relative ? percent_of(difference, value).value_or(unknown) : std::abs(difference);
 }
 
 std::vector<double> spacings(std::span<const int> k) {
@@ -128,18 +134,28 @@ ReferenceValue limit_of(const Observable& one, std::span<const int> k, std::span
           limit.order ? "extrapolated from three grids" : "the finest grid"};
 }
 
+// Of the runs that have it.
+solver::MeanSd over_runs(std::span<const Measures> runs, std::string_view name) {
+  solver::RunningStatistics statistics;
+  for (const auto& run : runs)
+    if (const auto value = number_in(run, name)) statistics.add(*value);
+  return statistics.result();
+}
+
+double standard_error(const solver::MeanSd& of) {
+  return of.n > 1 ? of.sd / std::sqrt(static_cast<double>(of.n)) : unknown;
+}
+
 std::optional<ReferenceValue> mean_over_starts(const Observable& one, std::span<const double> levels,
                                                std::span<const Measures> starts) {
-  solver::RunningStatistics statistics;
-  for (const auto& start : starts)
-    if (const auto value = number_in(start, one.name)) statistics.add(*value);
-  const auto [mean, sd, n] = statistics.result();
-  if (n == 0) return std::nullopt;
-  return ReferenceValue{{levels.begin(), levels.end()},
-                        mean,
-                        n > 1 ? in_unit(one, sd, mean) : unknown,
-                        std::nullopt,
-                        fmt::format("mean of {} starts; the uncertainty is their standard deviation", n)};
+  const auto seen = over_runs(starts, one.name);
+  if (seen.n == 0) return std::nullopt;
+  return ReferenceValue{
+      {levels.begin(), levels.end()},
+      seen.mean,
+      in_unit(one, standard_error(seen), seen.mean),
+      std::nullopt,
+      fmt::format("mean of {} of {} starts; the uncertainty is its standard error", seen.n, starts.size())};
 }
 
 // Of curves, fields and tips, which have no value of their own.
@@ -179,11 +195,13 @@ std::optional<double> error_of(const Observable& one, const Measures& a, const M
       return tip_error(a.tips, b.tips);
     case Kind::relative:
     case Kind::absolute:
+    case Kind::event:
       break;
   }
   const auto seen = number_in(a, one.name), expected = number_in(b, one.name);
+  if (one.kind == Kind::event && seen.has_value() != expected.has_value()) return infinite;
   if (!seen || !expected) return std::nullopt;
-  return one.kind == Kind::absolute ? std::abs(*seen - *expected) : percent_of(*seen - *expected, *expected);
+  return one.kind == Kind::relative ? percent_of(*seen - *expected, *expected) : std::abs(*seen - *expected);
 }
 
 bool is_chaotic(std::span<const Measures> levels) {
@@ -210,6 +228,8 @@ Reference make_reference(std::vector<int> k, std::span<const Measures> levels,
         value = mean_over_starts(one, numbers, starts);
       else if (numbers.size() == levels.size())
         value = limit_of(one, reference.levels, numbers);
+      if (!value && one.kind == Kind::event && numbers.empty())
+        value = ReferenceValue{{}, std::nullopt, unknown, std::nullopt, "does not occur"};
     }
     if (!value) continue;
     if (value->value) reference.best.numbers[std::string(one.name)] = *value->value;
@@ -218,17 +238,33 @@ Reference make_reference(std::vector<int> k, std::span<const Measures> levels,
   return reference;
 }
 
-Errors errors_of(const Measures& measures, const Reference& reference) {
+Errors errors_of(std::span<const Measures> runs, const Reference& reference) {
   Errors errors;
-  for (const auto& [name, value] : reference.values)
-    if (const auto error = error_of(*find_observable(name), measures, reference.best)) errors[name] = *error;
+  for (const auto& [name, value] : reference.values) {
+    const Observable& one = *find_observable(name);
+    Error error{.uncertainty = value.uncertainty};
+    std::optional<double> seen;
+    if (reference.chaotic && is_statistic(one)) {
+      const auto over = over_runs(runs, name);
+      Measures mean;
+      if (over.n > 0) mean.numbers[name] = over.mean;
+      seen = error_of(one, mean, reference.best);
+      error.uncertainty =
+          std::hypot(value.uncertainty, in_unit(one, standard_error(over), value.value.value_or(over.mean)));
+    } else {
+      seen = error_of(one, runs.front(), reference.best);
+    }
+    if (!seen) continue;
+    error.value = *seen;
+    errors[name] = error;
+  }
   return errors;
 }
 
 std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error) {
   std::vector<bool> front(cost.size());
   for (std::size_t n = 0; n < cost.size(); ++n) {
-    bool beaten = std::isnan(cost[n]) || std::isnan(error[n]);
+    bool beaten = !std::isfinite(cost[n]) || !std::isfinite(error[n]);
     for (std::size_t m = 0; m < cost.size() && !beaten; ++m)
       beaten = cost[m] <= cost[n] && error[m] <= error[n] && (cost[m] < cost[n] || error[m] < error[n]);
     front[n] = !beaten;
@@ -243,8 +279,8 @@ double miss_of(const Candidate& candidate, std::span<const ErrorTarget> targets)
   double largest = 0;
   for (const auto& target : targets) {
     const auto found = candidate.errors.find(target.observable);
-    if (found == candidate.errors.end()) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, found->second / target.largest);
+    if (found == candidate.errors.end()) return infinite;
+    largest = std::max(largest, found->second.value / target.largest);
   }
   return largest;
 }
@@ -263,7 +299,7 @@ std::optional<std::size_t> choose(std::span<const Candidate> candidates,
 std::optional<std::size_t> nearest_to(std::span<const Candidate> candidates,
                                       std::span<const ErrorTarget> targets) {
   std::optional<std::size_t> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinite;
   for (std::size_t n = 0; n < candidates.size(); ++n) {
     const double miss = miss_of(candidates[n], targets);
     if (miss < least) least = miss, best = n;

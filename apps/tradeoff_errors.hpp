@@ -14,7 +14,8 @@
 namespace myowave::apps {
 
 struct Observable {
-  enum class Kind { relative, absolute, curve, field_half, field_end, tips };
+  // An event is told by its time, which a run need not have.
+  enum class Kind { relative, absolute, event, curve, field_half, field_end, tips };
   // What is compared of a chaotic scene: nothing of a single path, statistics against their spread.
   enum class Chaos { same, left_out, statistic, statistic_only };
 
@@ -28,14 +29,15 @@ std::span<const Observable> observables();
 const Observable* find_observable(std::string_view name);
 
 // Of a against b, in the observable's unit: in % of b, for curves and fields by the L2 norm, of an area curve
-// of its distance from 1; or the distance; of tips the mean distance of b's to the nearest of a. None where
-// one of them lacks it, nor of V where b is at rest.
+// of its distance from 1; or the distance; of tips the mean distance of b's to the nearest of a that turns
+// the same way. Infinite of an event that one of them has alone. None where one of them lacks it, both the
+// event, nor of V where b is at rest.
 std::optional<double> error_of(const Observable&, const Measures& a, const Measures& b);
 
 // Errors of an observable are against this.
 struct ReferenceValue {
   std::vector<double> levels;   // coarse to fine; of curves, fields and tips the distance from the next finer
-  std::optional<double> value;  // extrapolated, or the mean over starts; of numbers only
+  std::optional<double> value;  // extrapolated, or the mean over starts; of numbers only, not of no event
   double uncertainty = 0;       // in the unit of the error; nan where it is not known
   std::optional<double> order{};
   std::string how;
@@ -57,11 +59,20 @@ bool is_chaotic(std::span<const Measures> levels);
 Reference make_reference(std::vector<int> k, std::span<const Measures> levels,
                          std::span<const Measures> starts);
 
-// By the name of the observable, those that there are.
-using Errors = std::map<std::string, double, std::less<>>;
-Errors errors_of(const Measures&, const Reference&);
+// Of a chaotic scene the uncertainty is the standard error of the difference of two means over starts, else
+// it is the reference's.
+struct Error {
+  double value = 0, uncertainty = 0;  // in the observable's unit
 
-// Which points no other beats: none is at most as dear and at most as wrong, and less in one. nan never is.
+  bool is_below() const { return value < uncertainty; }
+};
+// By the name of the observable, those that there are.
+using Errors = std::map<std::string, Error, std::less<>>;
+// Of one run, or of one from each start of a chaotic scene.
+Errors errors_of(std::span<const Measures> runs, const Reference&);
+
+// Which points no other beats: none is at most as dear and at most as wrong, and less in one. What is not
+// finite never is.
 std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error);
 
 // A setting that was run: what it costs, s, and its errors.

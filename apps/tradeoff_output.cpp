@@ -28,26 +28,26 @@ using Fronts = std::map<std::string, std::vector<bool>, std::less<>>;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array preset_names{"paper", "fast", "balanced", "reference"};
-constexpr const char* below_note = "* smaller than the uncertainty of the reference";
+constexpr const char* below_note = "* smaller than its uncertainty";
 
+// What the reference has; an event that it lacks only if some setting has it.
 std::vector<const Observable*> compared(const Study& study) {
   std::vector<const Observable*> names;
-  for (const Observable& one : observables())
-    if (study.reference && study.reference->values.contains(one.name)) names.push_back(&one);
+  if (!study.reference) return names;
+  for (const Observable& one : observables()) {
+    const auto found = study.reference->values.find(one.name);
+    if (found == study.reference->values.end()) continue;
+    const auto has_error = [&](const Trial& trial) { return trial.errors.contains(one.name); };
+    if (one.kind != Observable::Kind::event || found->second.value ||
+        std::ranges::any_of(study.trials, has_error))
+      names.push_back(&one);
+  }
   return names;
 }
 
-double uncertainty_of(const Study& study, const Observable& one) {
-  return study.reference->values.find(one.name)->second.uncertainty;
-}
-
-double error_in(const Trial& trial, const Observable& one) {
+Error error_in(const Trial& trial, const Observable& one) {
   const auto found = trial.errors.find(one.name);
-  return found == trial.errors.end() ? unknown : found->second;
-}
-
-bool is_below(const Study& study, const Trial& trial, const Observable& one) {
-  return error_in(trial, one) < uncertainty_of(study, one);
+  return found == trial.errors.end() ? Error{unknown, unknown} : found->second;
 }
 
 double speed_up(const Study& study, const Trial& trial) {
@@ -76,7 +76,7 @@ std::string tradeoff_csv(const Study& study, const Fronts& fronts) {
       "setting,overrides,repetitions,wall_median_s,wall_min_s,wall_max_s,speed_up,cell_steps_per_s";
   const auto names = compared(study);
   for (const auto* one : names)
-    text += fmt::format(",{0}_error,{0}_on_front,{0}_below_uncertainty", one->name);
+    text += fmt::format(",{0}_error,{0}_uncertainty,{0}_on_front,{0}_below_uncertainty", one->name);
   text += ",trouble\n";
   for (std::size_t n = 0; n < study.trials.size(); ++n) {
     const Trial& trial = study.trials[n];
@@ -87,11 +87,12 @@ std::string tradeoff_csv(const Study& study, const Fronts& fronts) {
                         cell(wall.empty() ? unknown : *std::ranges::max_element(wall)),
                         cell(speed_up(study, trial)), cell(median(trial.cell_steps_per_s)));
     for (const auto* one : names) {
-      const double error = error_in(trial, *one);
-      text += std::isnan(error)
-                  ? ",,,"
-                  : fmt::format(",{},{},{}", cell(error), fronts.find(one->name)->second[n] ? 1 : 0,
-                                is_below(study, trial, *one) ? 1 : 0);
+      const Error error = error_in(trial, *one);
+      text += std::isnan(error.value)
+                  ? ",,,,"
+                  : fmt::format(",{},{},{},{}", std::isinf(error.value) ? "inf" : cell(error.value),
+                                cell(error.uncertainty), fronts.find(one->name)->second[n] ? 1 : 0,
+                                error.is_below() ? 1 : 0);
     }
     text += fmt::format(",{}\n", quoted(trial.trouble));
   }
@@ -136,19 +137,22 @@ json trial_json(const Study& study, std::size_t n, const Fronts& fronts) {
   const Trial& trial = study.trials[n];
   json errors = json::object();
   for (const auto* one : compared(study)) {
-    const double error = error_in(trial, *one);
-    if (std::isnan(error)) continue;
-    errors[std::string(one->name)] = {{"error", error},
+    const Error error = error_in(trial, *one);
+    if (std::isnan(error.value)) continue;
+    errors[std::string(one->name)] = {{"error", number(error.value)},
+                                      {"uncertainty", number(error.uncertainty)},
                                       {"on_front", bool(fronts.find(one->name)->second[n])},
-                                      {"below_uncertainty", is_below(study, trial, *one)}};
+                                      {"below_uncertainty", error.is_below()}};
   }
+  json measured = json::array();
+  for (const Measures& run : trial.runs) measured.push_back(run.numbers);
   return {{"name", trial.setting.name},
           {"overrides", trial.setting.overrides},
           {"wall_s", numbers(trial.wall_s)},
           {"wall_median_s", number(median(trial.wall_s))},
           {"speed_up", number(speed_up(study, trial))},
           {"cell_steps_per_s", number(median(trial.cell_steps_per_s))},
-          {"measured", trial.measures ? json(trial.measures->numbers) : json(nullptr)},
+          {"measured", std::move(measured)},
           {"errors", std::move(errors)},
           {"trouble", text_or_null(trial.trouble)}};
 }
@@ -170,8 +174,8 @@ Figure error_figure(const Study& study, const Observable& one, const std::vector
   std::vector<Series> presets;
   for (const std::size_t n : by_cost(study)) {
     const Trial& trial = study.trials[n];
-    const double cost = median(trial.wall_s), error = error_in(trial, one);
-    if (!(error > 0)) continue;
+    const double cost = median(trial.wall_s), error = error_in(trial, one).value;
+    if (!(error > 0) || std::isinf(error)) continue;
     const auto add_to = [&](Series& series) { series.x.push_back(cost), series.y.push_back(error); };
     if (front[n]) add_to(line);
     const auto preset = std::ranges::find(preset_names, trial.setting.name);
@@ -190,17 +194,24 @@ Figure error_figure(const Study& study, const Observable& one, const std::vector
             .series = {std::move(line), std::move(others)}};
   plot.series.insert(plot.series.end(), presets.begin(), presets.end());
   std::erase_if(plot.series, [](const Series& series) { return series.x.empty(); });
-  if (const double uncertainty = uncertainty_of(study, one); uncertainty > 0) plot.guides = {uncertainty};
+  const double uncertainty = study.reference->values.find(one.name)->second.uncertainty;
+  if (uncertainty > 0) plot.guides = {uncertainty};
   return {.panels = {std::move(plot)}};
 }
 
 std::string figure_name(const Observable& one) { return fmt::format("error_{}", one.name); }
 
-// "0.12*": smaller than what is known of the reference.
+// "0.12*": smaller than its uncertainty, which a chaotic scene's errors show: "3.1 +- 2.4". An event that the
+// setting or the reference lacks has no distance.
 std::string error_text(const Study& study, const Trial& trial, const Observable& one) {
-  const double error = error_in(trial, one);
-  if (std::isnan(error)) return "-";
-  return fmt::format("{:.3g}{}", error, is_below(study, trial, one) ? "*" : "");
+  const Error error = error_in(trial, one);
+  if (std::isnan(error.value)) return "-";
+  if (std::isinf(error.value))
+    return study.reference->values.find(one.name)->second.value ? "does not occur" : "occurs";
+  std::string text = fmt::format("{:.3g}", error.value);
+  if (study.reference->chaotic && std::isfinite(error.uncertainty))
+    text += fmt::format(" +- {:.2g}", error.uncertainty);
+  return text + (error.is_below() ? "*" : "");
 }
 
 std::string settings_html(const Study& study, const Fronts& fronts) {
@@ -305,11 +316,10 @@ Fronts fronts_of(const Study& study) {
   std::vector<double> cost;
   for (const Trial& trial : study.trials) cost.push_back(median(trial.wall_s));
   for (const auto* one : compared(study)) {
-    const double uncertainty = uncertainty_of(study, *one);
     std::vector<double> error;
     for (const Trial& trial : study.trials) {
-      const double own = error_in(trial, *one);
-      error.push_back(own < uncertainty ? uncertainty : own);
+      const Error own = error_in(trial, *one);
+      error.push_back(own.is_below() ? own.uncertainty : own.value);
     }
     fronts.emplace(one->name, pareto_front(cost, error));
   }

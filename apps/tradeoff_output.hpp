@@ -17,7 +17,7 @@ struct Trial {
   std::optional<solver::Scene> scene{};              // empty: refused
   std::string trouble{};                             // why it was refused, failed or left out
   std::vector<double> wall_s{}, cell_steps_per_s{};  // a repetition each
-  std::optional<Measures> measures{};
+  std::vector<Measures> runs{};                      // from each start of a chaotic scene, else one
   Errors errors{};
 };
 
@@ -40,7 +40,7 @@ struct Study {
 // Of the wall seconds or rates of a trial; nan where it was not run.
 double median(std::vector<double> values);
 
-// By the name of the observable, of each trial. An error counts as no less than the reference's uncertainty.
+// By the name of the observable, of each trial. An error counts as no less than its uncertainty.
 std::map<std::string, std::vector<bool>, std::less<>> fronts_of(const Study&);
 
 // Removes what an earlier one left.

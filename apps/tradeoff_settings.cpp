@@ -113,6 +113,7 @@ std::span<const Dial> dials() { return all; }
 
 std::vector<DialValues> parse_axes(std::string_view text, const solver::Scene& scene) {
   std::vector<DialValues> axes;
+  if (trimmed(text) == "none") return axes;
   if (trimmed(text).empty()) {
     for (const Dial& dial : all)
       if (!dial.elastic || scene.mechanics)
@@ -169,12 +170,14 @@ std::vector<Setting> make_settings(std::span<const DialValues> axes, bool produc
 }
 
 std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
-  constexpr double coupling = 0.2;  // t.u. from one solve to the next
+  constexpr double coupling = 0.4;  // t.u. from one solve to the next on the coarsest grid
   constexpr double slowest = 0.05;  // dt of the coarsest, where D asks for none
+  constexpr double looks = 0.2;     // t.u.
   const auto& cell = own.excitation;
   const double dx = own.grid.dx, parts = solver::contracts(own) ? 12 : 6;
   const double stable = cell.D > 0 ? dx * dx * cell.C_m / (parts * cell.D) : slowest;
-  const int steps = static_cast<int>(std::ceil(coupling / std::min(stable, slowest) - 1e-9)) * k * k;
+  // Steps of the coarsest grid from one look to the next.
+  const int steps = static_cast<int>(std::ceil(looks / std::min(stable, slowest) - 1e-9));
   std::vector<std::string> overrides{"accuracy.preset=reference"};
   const auto set = [&](std::string_view key, const auto& value) {
     std::erase_if(overrides, [&](const auto& one) { return one.starts_with(fmt::format("{}=", key)); });
@@ -185,10 +188,11 @@ std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
     if (one.holds(own.mechanics.has_value())) set(one.key, one.value);
   set("accuracy.dx", fmt::format("{:.15g}", dx / k));
   set("accuracy.quiescent", 0);
-  set("time.dt", coupling / steps);
-  for (const char* key : {"output.every", "output.tips_every", "output.probes_every"}) set(key, coupling);
+  set("time.dt", looks / (steps * k * k));
+  for (const char* key : {"output.every", "output.tips_every", "output.probes_every"}) set(key, looks);
   if (!own.mechanics) return overrides;
-  set("mechanics.interval", steps);
+  // coupling / k
+  set("mechanics.interval", static_cast<int>(std::lround(coupling / looks)) * steps * k);
   set("mechanics.trigger", 0);
   set("mechanics.overlap", false);
   if (own.metric == solver::MetricForm::expanded) set("accuracy.scheme", "euler");

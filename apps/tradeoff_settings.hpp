@@ -28,7 +28,8 @@ struct DialValues {
 };
 
 // From --axes: "time.dt=0.01,0.02;accuracy.scheme=euler,split", or names alone, "time.dt,precision", for the
-// values of the table; a name may be the last part of the key. All dials that act on the scene for "".
+// values of the table; a name may be the last part of the key. All dials that act on the scene for "", none
+// for "none".
 // Errors: InputError with the nearest dial; for one that has no effect on the scene.
 std::vector<DialValues> parse_axes(std::string_view text, const solver::Scene&);
 
@@ -43,7 +44,7 @@ struct Setting {
 std::vector<Setting> make_settings(std::span<const DialValues>, bool product);
 
 // The reference on a grid k times finer than grid.dx: the preset `reference` with dt proportional to dx^2, at
-// most C_m dx^2 / (6 D), half of it where the sheet contracts, and solves of the mechanics each 0.2 t.u.
+// most C_m dx^2 / (6 D), half of it where the sheet contracts, and solves of the mechanics each 0.4 / k t.u.
 // Where the metric is `expanded`, the scheme is the one that has it.
 std::vector<std::string> reference_overrides(const solver::Scene& own, int k);
 

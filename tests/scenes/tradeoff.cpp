@@ -68,7 +68,7 @@ TEST(Tradeoff, OfARigidSheetTellsCostAndErrorOfEachSetting) {
   EXPECT_THAT(setting(results, "paper, time.dt=0.5")["trouble"].get<std::string>(), StartsWith("refused: "));
   EXPECT_FALSE(results["reference"]["chaotic"]);
 
-  EXPECT_THAT(test::read_text(made.out() / "tradeoff.csv"), HasSubstr("cv_error,cv_on_front"));
+  EXPECT_THAT(test::read_text(made.out() / "tradeoff.csv"), HasSubstr("cv_error,cv_uncertainty,cv_on_front"));
   for (const char* name : {"error_cv", "error_field_end"}) {
     EXPECT_THAT(test::read_text(made.out() / (std::string(name) + ".png")), StartsWith("\x89PNG"));
     EXPECT_THAT(test::read_text(made.out() / (std::string(name) + ".svg")), HasSubstr("</svg>"));
@@ -93,6 +93,33 @@ TEST(Tradeoff, OfAContractingSheetHasTheMechanicsDialsAndNamesTheNearestSetting)
   EXPECT_GT(error(results, "paper, feedback.metric=none", "field_end"),
             2 * error(results, "paper", "field_end"));
   EXPECT_TRUE(setting(results, "balanced, mechanics.overlap=true")["errors"].contains("shortening"));
+}
+
+// P15 at mu1 = 0.105: with the paper's steps, whose waves are 3 % slow, the spiral stays whole.
+TEST(Tradeoff, TellsWhenASpiralBreaksUp) {
+  const Tradeoff made(R"(
+[grid]
+n = 121
+[time]
+t_end = 75
+[excitation]
+mu1 = 0.105
+[initial]
+type = "broken_front"
+offset = [-5, 40]
+precondition = { duration = 270, mu1 = 0.15 }
+)",
+                      {"--axes", "none"});
+  ASSERT_EQ(made.outcome.status, 0) << made.outcome.errors;
+  const auto results = made.results();
+  EXPECT_EQ(results["settings"].size(), 4u) << "the presets alone";
+  const auto& breakup = results["reference"]["values"]["breakup"];
+  EXPECT_NEAR(breakup["value"], 65, 1);
+  EXPECT_LT(breakup["uncertainty"], 1);
+  for (const char* preset : {"fast", "balanced", "reference"})
+    EXPECT_LT(error(results, preset, "breakup"), 3) << preset;
+  EXPECT_TRUE(setting(results, "paper")["errors"]["breakup"]["error"].is_null());
+  EXPECT_THAT(made.outcome.output, testing::ContainsRegex("paper .* does not occur"));
 }
 
 TEST(Tradeoff, LeavesOutWhatABudgetHasNoTimeForAndSaysSo) {

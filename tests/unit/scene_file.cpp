@@ -275,6 +275,7 @@ TEST(scene_file, the_step_of_a_preset_follows_the_spacing) {
   EXPECT_EQ(usual.time.dt, 0.2);
   EXPECT_DOUBLE_EQ(scene("accuracy.preset = 'fast'\noutput.every = 0.5").time.dt, 0.5 / 3);
   EXPECT_DOUBLE_EQ(scene("accuracy.preset = 'fast'\noutput.tips_every = 0.1").time.dt, 0.1);
+  EXPECT_DOUBLE_EQ(scene("accuracy.preset = 'balanced'\noutput.tips_every = 0.2").time.dt, 0.1);
 }
 
 TEST(scene_file, set_of_the_type_forgives_keys_of_the_file_for_another) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/richardson.hpp"
 #include "apps/scene_file.hpp"
@@ -20,6 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Action>
 std::string refusal_of(const Action& action) {
@@ -66,15 +68,15 @@ TEST(Richardson, TakesTheFinestGridWhereThereIsNoOrder) {
 }
 
 TEST(ParetoFront, HasWhatNoOtherBeats) {
-  const std::vector<double> cost{1, 2, 3, 4, 2, 1, 5}, error{8, 4, 4, 1, 4, 9, nan};
-  EXPECT_THAT(pareto_front(cost, error), ElementsAre(true, true, false, true, true, false, false));
+  const std::vector<double> cost{1, 2, 3, 4, 2, 1, 5, 0.5}, error{8, 4, 4, 1, 4, 9, nan, infinity};
+  EXPECT_THAT(pareto_front(cost, error), ElementsAre(true, true, false, true, true, false, false, false));
 }
 
 TEST(ErrorTargets, AreMetByTheCheapest) {
-  const std::vector<Candidate> candidates{{5, {{"cv", 0.1}, {"period", 0.1}}},
-                                          {2, {{"cv", 0.9}, {"period", 0.8}}},
-                                          {1, {{"cv", 0.5}, {"period", 3}}},
-                                          {0.5, {{"cv", 0.1}}}};
+  const std::vector<Candidate> candidates{{5, {{"cv", {0.1}}, {"period", {0.1}}}},
+                                          {2, {{"cv", {0.9}}, {"period", {0.8}}}},
+                                          {1, {{"cv", {0.5}}, {"period", {3}}}},
+                                          {0.5, {{"cv", {0.1}}}}};
   const auto both = parse_targets({"period=1%,cv=1"});
   EXPECT_EQ(choose(candidates, both), 1u);
   const auto strict = parse_targets({"period=0.05%", "cv=2%"});
@@ -121,6 +123,7 @@ TEST(Axes, OfARigidSceneHaveNoDialsOfTheMechanics) {
   EXPECT_EQ(rigid.size(), 5u);
   for (const auto& axis : rigid) EXPECT_THAT(axis.key, Not(HasSubstr("mechanics")));
   EXPECT_EQ(parse_axes("", elastic_scene()).size(), dials().size());
+  EXPECT_TRUE(parse_axes("none", {}).empty());
 }
 
 TEST(Settings, ArePresetsAndOneDialAtATimeOrAllCombinations) {
@@ -138,11 +141,14 @@ TEST(Settings, ArePresetsAndOneDialAtATimeOrAllCombinations) {
               HasSubstr("more than 1000 combinations"));
 }
 
-TEST(References, HaveDtWithTheSquareOfDxAndSolvesAtTheSameTimes) {
+// dt is 0.2 / (7 k^2), a solve comes each 0.4 / k.
+TEST(References, HaveDtWithTheSquareOfDxAndTheIntervalWithDx) {
   EXPECT_THAT(reference_overrides(elastic_scene(), 1),
-              testing::IsSupersetOf({"accuracy.dx=0.6", "mechanics.interval=7"}));
+              testing::IsSupersetOf({"accuracy.dx=0.6", "mechanics.interval=14"}));
   EXPECT_THAT(reference_overrides(elastic_scene(), 2),
               testing::IsSupersetOf({"accuracy.dx=0.3", "mechanics.interval=28"}));
+  EXPECT_THAT(reference_overrides(elastic_scene(), 3),
+              testing::IsSupersetOf({"accuracy.dx=0.2", "mechanics.interval=42"}));
   EXPECT_THAT(reference_overrides({}, 2), testing::Contains("time.dt=0.0125"));
   EXPECT_THAT(parse_levels("1, 2,4"), ElementsAre(1, 2, 4));
   for (const char* wrong : {"2,3", "2,2,3", "0,1,2", "a,b,c", ""})
@@ -195,9 +201,10 @@ TEST(References, AreExtrapolatedOfNumbersAndTheFinestGridOfFields) {
   EXPECT_NEAR(reference.values.at("cv").uncertainty, 100. / 32, 1e-6);
   EXPECT_NEAR(*reference.values.at("field_end").order, 2, 0.1);
   EXPECT_FALSE(reference.values.contains("tips")) << "a mean only counts where single paths do not";
-  const Errors errors = errors_of(made(1.5, {0, 1}), reference);
-  EXPECT_NEAR(errors.at("cv"), 25, 1e-6);
-  EXPECT_NEAR(errors.at("field_end"), 100 * 1.0625 / std::hypot(1.0625, 1), 1e-6);
+  const Errors errors = errors_of(std::vector{made(1.5, {0, 1})}, reference);
+  EXPECT_NEAR(errors.at("cv").value, 25, 1e-6);
+  EXPECT_EQ(errors.at("cv").uncertainty, reference.values.at("cv").uncertainty);
+  EXPECT_NEAR(errors.at("field_end").value, 100 * 1.0625 / std::hypot(1.0625, 1), 1e-6);
 }
 
 TEST(References, OfAChaoticSceneAreMeansOverStarts) {
@@ -207,8 +214,49 @@ TEST(References, OfAChaoticSceneAreMeansOverStarts) {
   EXPECT_TRUE(reference.chaotic);
   EXPECT_FALSE(reference.values.contains("field_end"));
   EXPECT_EQ(reference.best.numbers.at("tips"), 5);
-  EXPECT_NEAR(reference.values.at("tips").uncertainty, 100 * std::sqrt(2) / 5, 1e-9);
-  EXPECT_NEAR(errors_of(made(1, {}, 3), reference).at("tips"), 40, 1e-9);
+  EXPECT_NEAR(reference.values.at("tips").uncertainty, 100 * 1 / 5., 1e-9);
+  const std::vector runs{made(1, {}, 2), made(1, {}, 6)};
+  const Error error = errors_of(runs, reference).at("tips");
+  EXPECT_NEAR(error.value, 20, 1e-9);
+  EXPECT_NEAR(error.uncertainty, 100 * std::hypot(1, 2) / 5, 1e-9) << "that of the difference of two means";
+  EXPECT_TRUE(error.is_below());
+}
+
+Measures breaking_up(std::optional<double> t, std::vector<double> V_end) {
+  Measures measures;
+  if (t) measures.numbers["breakup"] = *t;
+  measures.V_end = std::move(V_end);
+  return measures;
+}
+
+TEST(References, OfABreakUpAreItsTime) {
+  std::vector<Measures> levels;
+  for (const int k : {1, 2, 3}) levels.push_back(breaking_up(200 + 9. / (k * k), {1, 0}));
+  const Reference reference = make_reference({1, 2, 3}, levels, {});
+  EXPECT_NEAR(*reference.values.at("breakup").value, 200, 1e-6);
+  EXPECT_NEAR(errors_of(std::vector{breaking_up(190, {})}, reference).at("breakup").value, 10, 1e-6);
+  EXPECT_EQ(errors_of(std::vector{breaking_up({}, {})}, reference).at("breakup").value, infinity);
+}
+
+// What comes after a break-up is chaotic, when it comes need not be.
+TEST(References, OfABreakUpIntoChaosAreItsMeanTime) {
+  const std::vector levels{breaking_up(200, {1, 0}), breaking_up(203, {0, 1}), breaking_up(204, {1, 0})};
+  const std::vector starts{breaking_up(201, {}), breaking_up({}, {}), breaking_up(203, {})};
+  const Reference reference = make_reference({1, 2, 3}, levels, starts);
+  ASSERT_TRUE(reference.chaotic);
+  EXPECT_NEAR(*reference.values.at("breakup").value, 202, 1e-9);
+  EXPECT_THAT(reference.values.at("breakup").how, HasSubstr("2 of 3 starts"));
+  const std::vector runs{breaking_up(190, {}), breaking_up(194, {}), breaking_up({}, {})};
+  const Error error = errors_of(runs, reference).at("breakup");
+  EXPECT_NEAR(error.value, 10, 1e-9);
+  EXPECT_NEAR(error.uncertainty, std::hypot(1, 2), 1e-9);
+}
+
+TEST(References, WithoutABreakUpTellOfOneThatASettingHasAlone) {
+  const std::vector levels(3, breaking_up({}, {1, 0}));
+  const Reference reference = make_reference({1, 2, 3}, levels, {});
+  EXPECT_FALSE(errors_of(std::vector{breaking_up({}, {})}, reference).contains("breakup"));
+  EXPECT_EQ(errors_of(std::vector{breaking_up(190, {})}, reference).at("breakup").value, infinity);
 }
 
 TEST(Errors, OfCurvesAreOfTheDistanceFromOne) {
@@ -224,12 +272,14 @@ TEST(Errors, OfCurvesAreOfTheDistanceFromOne) {
   EXPECT_NEAR(*error_of(*find_observable("area"), run, reference), 10, 0.01);
 }
 
-TEST(Errors, OfTipsAreDistancesToTheNearest) {
+TEST(Errors, OfTipsAreDistancesToTheNearestOfTheSameTurn) {
   Measures reference, run;
   reference.tips = {{0, 0, 1}, {10, 0, -1}};
   EXPECT_FALSE(error_of(*find_observable("tip"), run, reference));
-  run.tips = {{3, 4, 1}, {10, 1, -1}};
+  run.tips = {{3, 4, 1}, {10, 1, -1}, {0, 1, -1}};
   EXPECT_DOUBLE_EQ(*error_of(*find_observable("tip"), run, reference), 3);
+  run.tips = {{3, 4, 1}};
+  EXPECT_FALSE(error_of(*find_observable("tip"), run, reference)) << "none turns the other way";
 }
 
 }  // namespace
