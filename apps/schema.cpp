@@ -205,8 +205,8 @@ std::vector<Section> make_schema() {
         {"edges", "", choice({"load", "fixed"}, MYOWAVE_AT(scene.mechanics->edges)),
          "The edges carry the load, or are held in place."},
         {"interval", "steps", integer(MYOWAVE_AT(scene.mechanics->interval), {.low = 1, .high = largest_int}),
-         "Steps from one solve of the mechanics to the next. The largest error of the scheme: 20 is four "
-         "times closer than 80."},
+         "Steps from one solve of the mechanics to the next. With a metric that is held between them 80 is "
+         "three to four times as far off as 20."},
         {"tolerance", "",
          number(MYOWAVE_AT(scene.mechanics->tolerance), {.low = 0, .high = 0.01, .low_open = true}),
          "Newton stops when the largest free residual is below this times 10 kPa times the element side."},
