@@ -9,7 +9,8 @@ add_library(myowave_options INTERFACE)
 target_compile_features(myowave_options INTERFACE cxx_std_20)
 # fmt 9 drops constexpr for nvcc, although its consteval format strings then do not compile.
 target_compile_definitions(myowave_options INTERFACE FMT_USE_CONSTEXPR=1)
-# Warnings and code generation are the host compiler's own; nvcc and hipcc bring theirs.
+# Flags that GCC and Clang share. A device's compiler gets them too: nvcc_wrapper is GNU to CMake and hands them to the
+# host's compiler, hipcc is Clang.
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(myowave_options INTERFACE -Wall -Wextra -Wshadow)
   # No kernel reads errno, and without it sqrt and friends vectorise. The loops along a row are marked
