@@ -56,6 +56,11 @@ function(require_kokkos_of_preset)
     message(FATAL_ERROR "${this} for ${architectures} and not for ${gpu}, which this preset is for. "
                         "To mend it: ${fix}, or give your GPU's name with -DMYOWAVE_GPU=NAME (empty: any).")
   endif()
+  # Since 5 there is no other.
+  if(myowave_backend STREQUAL "CUDA" AND Kokkos_VERSION VERSION_LESS 5 AND NOT "CUDA_LAMBDA" IN_LIST Kokkos_OPTIONS)
+    message(FATAL_ERROR "${this} without CUDA_LAMBDA, and kernels are lambdas. To mend it: point to another one with "
+                        "-DKokkos_ROOT=PREFIX, or build it again with -DKokkos_ENABLE_CUDA_LAMBDA=ON.")
+  endif()
 endfunction()
 require_kokkos_of_preset()
 
