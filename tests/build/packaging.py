@@ -52,11 +52,21 @@ for row, package in libraries.values():
     expect(package in dependencies, f"package.py does not depend on {package}")
     expect((dependencies.get(package) or "-") == least.get(row),
            f"{package}: package.py wants {dependencies.get(package)}, cmake/README.md {least.get(row)}")
+# What CMake asks of the versions that it finds.
+asked = dict(re.findall(r"at_least\((\w+) ([0-9.]+) ", text("cmake/Dependencies.cmake")))
+asked.update(re.findall(r"(cairo)>=([0-9.]+)", text("cmake/Dependencies.cmake")))
+asked.update(re.findall(r"find_package\((Kokkos) ([0-9.]+)", text("cmake/Kokkos.cmake")))
+for name, (row, _) in libraries.items():
+    expect(asked.get(name, "-") == least.get(row),
+           f"{name}: cmake/README.md says {least.get(row)}, CMake asks for {asked.get(name)}")
 cmake = re.search(r"cmake_minimum_required\(VERSION ([0-9.]+)\)", text("CMakeLists.txt")).group(1)
 expect(dependencies.get("cmake") == cmake, f"cmake: package.py wants {dependencies.get('cmake')}, CMakeLists.txt {cmake}")
 
-# Options that the recipe and the container files set.
-options = re.findall(r"^(?:option|set)\((MYOWAVE_\w+)", text("CMakeLists.txt") + text("cmake/Kokkos.cmake"), re.M)
+# Options that the recipe and the container files set. The recipe has them all, but for these: its compiler flags are
+# Spack's, and its Kokkos is built for the same GPU.
+options = re.findall(r"^(?:option|set)\((MYOWAVE_[A-Z_]+)", text("CMakeLists.txt") + text("cmake/Kokkos.cmake"), re.M)
+for option in set(options) - {"MYOWAVE_SANITIZE", "MYOWAVE_GPU"}:
+    expect(f'"{option}"' in recipe.read_text(), f"package.py does not set {option}")
 for path in [recipe, packaging / "Containerfile", packaging / "myowave.def", packaging / "README.md"]:
     for option in re.findall(r"MYOWAVE_\w+", path.read_text()):
         expect(option in options, f"{path.name}: no option {option}")
@@ -70,6 +80,12 @@ for path in environments:
     repository = re.search(r"repos:\n +myowave: (\S+)", yaml).group(1)
     expect((path.parent / sources).resolve() == source.resolve(), f"{path}: {sources} is not the project")
     expect((path.parent / repository / "repo.yaml").is_file(), f"{path}: no repository in {repository}")
+
+# What the container file copies is what it is sent.
+copied = re.findall(r"^COPY (?!--from)(.*) \S+$", text("cmake/packaging/Containerfile"), re.M)
+copied = sorted(path for paths in copied for path in paths.split())
+sent = sorted(line[1:] for line in text(".dockerignore").splitlines() if line.startswith("!"))
+expect(copied and copied == sent, f"Containerfile copies {copied}, .dockerignore lets pass {sent}")
 
 # Both images have the same libraries at run time.
 images = [re.findall(r"install -y --no-install-recommends (fonts[^&]*?)(?:&&|rm )", (packaging / name).read_text())

@@ -27,12 +27,15 @@ class Myowave(CMakePackage, CudaPackage, ROCmPackage):
     variant("threads", default=False, description="Run on all cores of a host by C++ threads")
     variant("serial", default=False, description="Run on one core of a host")
     variant("native", default=False, description="Add -march=native to Spack's target flags")
+    variant("apps", default=True, description="Build the myowave command")
     variant("tests", default=False, description="Build the tests")
     variant("bench", default=False, description="Build the benchmarks")
 
     conflicts("+cuda", when="+rocm", msg="Kokkos has one device backend")
     conflicts("cuda_arch=none", when="+cuda", msg="name the GPU: cuda_arch=90")
     conflicts("+openmp", when="+threads", msg="Kokkos has one parallel host backend")
+    conflicts("~apps", when="+tests", msg="many tests run the command")
+    conflicts("%gcc@:11", msg="C++20 as g++ 12 has it")
     requires(
         "+openmp",
         "+threads",
@@ -63,17 +66,19 @@ class Myowave(CMakePackage, CudaPackage, ROCmPackage):
         # The sources are C++ to CMake, so their compiler is nvcc_wrapper.
         depends_on("kokkos+wrapper")
         requires("^kokkos+cuda_lambda", when="^kokkos@:4")
+        conflicts("^cuda@13:", when="^kokkos@:4.6", msg="Kokkos 4.6 calls what CUDA 13 no longer has")
     depends_on("kokkos~cmake_lang", when="+rocm")
 
     depends_on("suite-sparse@5.12:~cuda~openmp")
-    depends_on("tomlplusplus@3.3:")
-    depends_on("cli11@2.1:")
     depends_on("fmt@9:")
-    depends_on("nlohmann-json@3.11:")
-    depends_on("hdf5@1.10:1~mpi")
-    depends_on("libpng@1.6:")
-    depends_on("cairo@1.16:+svg+png+ft+fc")
     depends_on("xxhash@0.8:")
+    with when("+apps"):
+        depends_on("tomlplusplus@3.3:")
+        depends_on("cli11@2.1:")
+        depends_on("nlohmann-json@3.11:")
+        depends_on("hdf5@1.10:1~mpi")
+        depends_on("libpng@1.6:")
+        depends_on("cairo@1.16:+svg+png+ft+fc")
 
     with when("+tests"):
         depends_on("googletest@1.12:+gmock", type="build")
@@ -89,6 +94,7 @@ class Myowave(CMakePackage, CudaPackage, ROCmPackage):
             self.define("Kokkos_ROOT", spec["kokkos"].prefix),
             self.define("MYOWAVE_BACKEND", backend),
             self.define_from_variant("MYOWAVE_NATIVE", "native"),
+            self.define_from_variant("MYOWAVE_APPS", "apps"),
             self.define_from_variant("MYOWAVE_TESTS", "tests"),
             self.define_from_variant("MYOWAVE_BENCH", "bench"),
         ]
