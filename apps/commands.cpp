@@ -115,7 +115,7 @@ void print_memory(const solver::Plan& plan, double nodes) {
              bytes_text(plan.bytes()), plan.state_bytes_per_node, plan.coefficient_bytes_per_node,
              plan.bytes() / nodes);
   for (const auto& [space, bytes] : plan.views()) {
-    const bool on_host = space == Kokkos::HostSpace::name();
+    const bool on_host = space == Kokkos::HostSpace::name() || !solver::has_device_memory();
     const auto free = on_host ? free_memory() : solver::free_device_memory();
     fmt::print("         {} in the Views of Kokkos' memory space {}{}\n", bytes_text(bytes), space,
                free ? fmt::format(", {} are free there", bytes_text(*free)) : "");

@@ -12,10 +12,10 @@ namespace myowave::solver {
 std::optional<std::uint64_t> free_device_memory() {
 #if defined(KOKKOS_ENABLE_CUDA)
   std::size_t free = 0, total = 0;
-  if (cudaMemGetInfo(&free, &total) == cudaSuccess) return free;
+  if (has_device_memory() && cudaMemGetInfo(&free, &total) == cudaSuccess) return free;
 #elif defined(KOKKOS_ENABLE_HIP)
   std::size_t free = 0, total = 0;
-  if (hipMemGetInfo(&free, &total) == hipSuccess) return free;
+  if (has_device_memory() && hipMemGetInfo(&free, &total) == hipSuccess) return free;
 #endif
   return std::nullopt;
 }
