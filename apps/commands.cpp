@@ -74,6 +74,18 @@ std::string mean_text(const solver::MeanSd& value, std::string_view unit) {
   return fmt::format("{:.2f} +- {:.2f}{} (n = {})", value.mean, value.sd, unit, value.n);
 }
 
+// Of each of Kokkos' memory spaces what the run took at most: "1.5 MiB in Host (1.6 MiB foretold)".
+std::string memory_text(const solver::RunSummary& summary) {
+  std::string text;
+  const auto foretold = summary.plan.views();
+  for (const auto& [space, bytes] : summary.memory) {
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", bytes_text(bytes), space);
+    const auto planned = std::ranges::find(foretold, space, &solver::SpaceBytes::space);
+    if (planned != foretold.end()) text += fmt::format(" ({} foretold)", bytes_text(planned->bytes));
+  }
+  return text;
+}
+
 void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
                   const std::filesystem::path& folder) {
   const solver::Observables& seen = summary.observables;
@@ -90,6 +102,7 @@ void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
     fmt::print("  shortening  {:.1f} % at t = {}\n", 100 * seen.shortening->first,
                time_text(seen.shortening->second, scene));
   }
+  if (!summary.memory.empty()) fmt::print("  memory      {}\n", memory_text(summary));
   fmt::print("  results     {}\n", folder.string());
 }
 

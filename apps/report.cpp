@@ -11,6 +11,7 @@
 #include "apps/figure.hpp"
 #include "apps/figures/measures.hpp"
 #include "apps/file_io.hpp"
+#include "apps/memory.hpp"
 #include "apps/movie.hpp"
 #include "apps/page.hpp"
 #include "apps/report_run.hpp"
@@ -109,6 +110,26 @@ std::string numbers_html(const ReportRun& run) {
   return rows.empty() ? "" : "<h3>Numbers</h3>\n" + table({}, rows);
 }
 
+// Of each of Kokkos' memory spaces, as far as the summary has them.
+void add_memory(std::vector<std::vector<std::string>>& rows, const json& summary) {
+  const auto spaces_of = [&](const char* which) {
+    const json::json_pointer at(fmt::format("/memory/{}", which));
+    return summary.contains(at) && summary[at].is_object() ? summary[at] : json::object();
+  };
+  const json allocated = spaces_of("most_bytes"), foretold = spaces_of("planned_bytes");
+  json spaces = foretold;
+  spaces.update(allocated);
+  for (const auto& [space, any] : spaces.items()) {
+    std::string words;
+    for (const auto& [bytes, what] : {std::pair{&allocated, "allocated"}, {&foretold, "foretold"}}) {
+      const json number = bytes->value(space, json());
+      if (!number.is_number_integer()) continue;
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", bytes_text(number), what);
+    }
+    rows.push_back({fmt::format("memory, {}", html_escape(space)), words, ""});
+  }
+}
+
 std::string timings_html(const ReportRun& run) {
   const json& summary = run.results().summary();
   if (!summary.is_object() || !summary.contains("phases") || !summary["wall_s"].is_number()) return "";
@@ -125,7 +146,8 @@ std::string timings_html(const ReportRun& run) {
       summary.contains(at) && summary[at].is_number())
     rows.push_back({"throughput",
                     fmt::format("{:.3g} million cell steps a second", 1e-6 * summary[at].get<double>()), ""});
-  std::string html = "<h3>Timings</h3>\n" + table({"phase", "time", "share"}, rows);
+  add_memory(rows, summary);
+  std::string html = "<h3>Timings and memory</h3>\n" + table({"phase", "time", "share"}, rows);
   if (const json mechanics = summary.value("mechanics", json()); mechanics.is_object()) {
     std::string counts;
     for (const auto& [name, value] : mechanics.items()) {

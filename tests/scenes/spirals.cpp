@@ -1,6 +1,9 @@
 // The shipped scenes of single spirals, each with a physical number of its own.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
+#include "apps/memory.hpp"
 #include "tests/support/scene_run.hpp"
 
 namespace myowave {
@@ -14,6 +17,9 @@ TEST(Scenes, RigidSpiral) {
   EXPECT_NEAR(run.number("period", "sd"), 0.37, 0.005);
   EXPECT_EQ(run.number("tips", "mean"), 1);
   EXPECT_TRUE(run.observable("area").is_null());
+  for (const auto& [space, bytes] : run.summary.at("memory").at("most_bytes").items())
+    EXPECT_THAT(run.output, testing::ContainsRegex("  memory .*" + apps::bytes_text(bytes) + " in " + space +
+                                                   " \\([0-9.]+ [KM]iB foretold\\)"));
 }
 
 // Contraction keeps one spiral where the rigid sheet breaks it up, and lengthens its period (found:

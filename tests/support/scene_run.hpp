@@ -50,6 +50,7 @@ class SceneRun {
     arguments.insert(arguments.end(), further.begin(), further.end());
     const Outcome outcome = run_myowave(arguments);
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    output = outcome.output;
     if (outcome.status == 0) summary = nlohmann::json::parse(read_text(folder_ / "out/summary.json"));
   }
 
@@ -58,6 +59,7 @@ class SceneRun {
   Table csv(const std::string& file) const { return read_csv(folder_ / ("out/" + file)); }
 
   nlohmann::json summary;
+  std::string output;  // what it printed
 
  private:
   TemporaryFolder folder_;

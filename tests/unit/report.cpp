@@ -29,6 +29,7 @@ void write_run(const fs::path& folder, double mu1 = 0.12) {
     "plan": [{"part": "sheet", "active": true, "what": "flat & thin", "why": ""},
              {"part": "mechanics", "active": false, "what": "", "why": "rigid"}],
     "phases": {"excitation": 1.5}, "throughput": {"cell_steps_per_s": 5e8}, "mechanics": null,
+    "memory": {"planned_bytes": {"Cuda": 1572864, "Host": 900}, "most_bytes": {"Cuda": 2097152}},
     "observables": {"period": {"mean": 26.82, "sd": 0.37, "n": 9}, "core": {"radius": 1.77, "drift_speed": 0.05},
                     "breakup_tu": 17, "death_tu": null,
                     "tips": {"mean": )" +
@@ -121,6 +122,8 @@ TEST(Report, IsOnePageWhoseTextIsEscaped) {
   EXPECT_THAT(page, HasSubstr("flat &amp; thin"));
   EXPECT_THAT(page, HasSubstr("wrote no fields.h5"));
   EXPECT_THAT(page, HasSubstr("75.0 %")) << "share of the excitation in the time";
+  EXPECT_THAT(page, HasSubstr("memory, Cuda</th><td>2.0 MiB allocated, 1.5 MiB foretold</td>"));
+  EXPECT_THAT(page, HasSubstr("memory, Host</th><td>900 B foretold</td>")) << "what was not measured";
   for (const char* file : {"probes_V.svg", "probes_V.png", "restitution.svg"})
     EXPECT_TRUE(fs::exists(folder / "page/plots" / file)) << file;
 }
