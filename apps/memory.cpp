@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string_view>
@@ -29,15 +30,29 @@ std::string bytes_text(std::uint64_t bytes) {
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} {}", value, units[unit]);
 }
 
-void require_memory(const solver::Scene& scene) {
+MemoryNeed memory_need(const solver::Scene& scene) {
   const solver::Plan plan = solver::make_plan(scene);
-  // What a device holds is refused there (solver/device_memory.hpp).
-  std::uint64_t needed = plan.bytes() - (solver::has_device_memory() ? plan.device_bytes() : 0);
+  MemoryNeed need{.device = solver::has_device_memory() ? plan.device_bytes() : 0};
+  need.host = plan.bytes() - need.device;
   if (scene.initial.dx > 0) {
     const solver::GridSettings start = grid_of_start(scene);
-    needed += 3 * sizeof(double) * static_cast<std::uint64_t>(start.rows) *
-              static_cast<std::uint64_t>(start.columns);
+    need.host += 3 * sizeof(double) * static_cast<std::uint64_t>(start.rows) *
+                 static_cast<std::uint64_t>(start.columns);
   }
+  return need;
+}
+
+int runs_that_fit(int wanted, const MemoryNeed& need, const std::optional<std::uint64_t>& free_host,
+                  const std::optional<std::uint64_t>& free_device) {
+  std::uint64_t fit = wanted;
+  if (free_host && need.host > 0) fit = std::min(fit, *free_host / need.host);
+  if (free_device && need.device > 0) fit = std::min(fit, *free_device / need.device);
+  return static_cast<int>(std::max<std::uint64_t>(fit, 1));
+}
+
+void require_memory(const solver::Scene& scene) {
+  // What a device holds is refused there (solver/device_memory.hpp).
+  const std::uint64_t needed = memory_need(scene).host;
   const std::optional<std::uint64_t> free = free_memory();
   if (!free || needed <= *free) return;
   throw solver::InputError(

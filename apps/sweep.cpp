@@ -12,6 +12,7 @@
 #include "apps/device.hpp"
 #include "apps/estimate.hpp"
 #include "apps/file_io.hpp"
+#include "apps/memory.hpp"
 #include "apps/signals.hpp"
 #include "apps/sweep_file.hpp"
 #include "apps/sweep_folder.hpp"
@@ -19,6 +20,7 @@
 #include "apps/sweep_progress.hpp"
 #include "apps/sweep_slurm.hpp"
 #include "apps/sweep_table.hpp"
+#include "solver/device_memory.hpp"
 #include "solver/ensemble.hpp"
 #include "solver/error.hpp"
 
@@ -94,6 +96,28 @@ void tell_what_is_there(const Records& records, const Work& work, const SweepReq
 int jobs_of(const SweepRequest& request) {
   if (request.jobs < 0) throw InputError(fmt::format("--jobs must be at least 1, not {}", request.jobs));
   return request.jobs > 0 ? request.jobs : solver::most_workers();
+}
+
+// Each run fits by itself; of those that go on at once, the memory may hold fewer than there are cores.
+int jobs_that_fit(int jobs, const std::vector<const SweepRun*>& runs, bool quiet) {
+  MemoryNeed largest;
+  for (const SweepRun* run : runs) {
+    const MemoryNeed need = memory_need(run->scene);
+    largest = {std::max(largest.host, need.host), std::max(largest.device, need.device)};
+  }
+  const auto free_host = free_memory(), free_device = solver::free_device_memory();
+  const int fit = runs_that_fit(jobs, largest, free_host, free_device);
+  if (quiet || fit == jobs || std::size_t(fit) >= runs.size()) return fit;
+  std::string words;
+  const auto tell = [&](const char* where, std::uint64_t need, const std::optional<std::uint64_t>& free) {
+    if (!free || need == 0) return;
+    words += fmt::format("{}{} of the {}'s memory, of which {} are free", words.empty() ? "" : ", and ",
+                         bytes_text(need), where, bytes_text(*free));
+  };
+  tell("host", largest.host, free_host);
+  tell("device", largest.device, free_device);
+  fmt::print(stderr, "myowave: {} at once, not {}: a run needs up to {}\n", fit, jobs, words);
+  return fit;
 }
 
 std::string duration_text(double seconds) {
@@ -176,8 +200,10 @@ void sweep(const SweepRequest& request) {
   const Device device;
   const int jobs = jobs_of(request);
   const auto runs = runs_of(plan, shard);
+  for (const SweepRun* run : runs) solver::require_device_memory(run->scene);
   if (request.dry_run) {
-    print_dry_run(plan, runs, work_of(runs, read_records(folder.path()), request), folder, jobs);
+    const Work work = work_of(runs, read_records(folder.path()), request);
+    print_dry_run(plan, runs, work, folder, jobs_that_fit(jobs, work.pending, request.quiet));
     return;
   }
   folder.prepare(plan);
@@ -186,9 +212,10 @@ void sweep(const SweepRequest& request) {
   const Records there = read_records(folder.path());
   const Work work = work_of(runs, there, request);
   tell_what_is_there(there, work, request);
+  const int at_once = jobs_that_fit(jobs, work.pending, request.quiet);
   Counts counts;
   try {
-    do_members(plan, work.pending, folder, jobs, request.quiet, records, counts);
+    do_members(plan, work.pending, folder, at_once, request.quiet, records, counts);
   } catch (const solver::Interrupted&) {
     throw solver::Interrupted(fmt::format(
         "{}: stopped after {} of {} runs; those under way are kept as checkpoints. The same command "
