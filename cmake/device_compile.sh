@@ -3,7 +3,7 @@
 # Kokkos built for it, and prints and judges what each kernel needs (kernel_resources.sh). It is a
 # compile check; it proves no run.
 #
-#   cmake/device_compile.sh cuda|hip ARCHITECTURE KOKKOS_INCLUDE WORK SOURCE...
+#   cmake/device_compile.sh cuda|hip ARCHITECTURE KOKKOS_INCLUDE WORK [-FLAG]... SOURCE...
 #
 # ARCHITECTURE is sm_80 or sm_90 of CUDA, gfx90a or gfx942 of HIP. HIP's headers and device libraries are those of
 # $ROCM_PATH; where that is not set, of /opt/rocm, of what fetch_hip.sh unpacked, or of the system.
@@ -16,6 +16,11 @@ set -euo pipefail
 
 backend=$1 architecture=$2 kokkos=$3 work=$4
 shift 4
+own_flags=()
+while [[ $1 == -* ]]; do
+  own_flags+=("$1")
+  shift
+done
 project=$(realpath "$(dirname "$0")/..")
 overlay=$work/overlay
 
@@ -86,14 +91,19 @@ is_fresh() {
 # Leaves the time it took in SOURCE's .time.
 compile() {
   local source=$1 object=$2 TIMEFORMAT='%U s'
-  { time "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" \
+  { time "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" "${own_flags[@]}" \
     -MD -MF "$object.d" "$source" -o "$object.new" >"$object.log" 2>&1; } 2>"$object.time" || return 1
   mv "$object.new" "$object"
 }
 
 "find_$backend"
 write_overlay
-object_of() { echo "$work/$(basename "${1%.cpp}").o"; }
+# Folders may have files of the same name.
+object_of() {
+  local name=${1#"$project"/}
+  name=${name%.cpp}
+  echo "$work/${name//\//_}.o"
+}
 
 # As many at once as there are cores: together they take longer than all other tests. nproc itself heeds
 # OMP_NUM_THREADS, which ctest's other tests have at 1.
