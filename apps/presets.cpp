@@ -54,7 +54,7 @@ constexpr auto fast = joined(large_steps, std::array{
 constexpr auto balanced = joined(large_steps, std::array{
                                                   PresetValue{"accuracy.dx", "0.75"},
                                                   PresetValue{"time.dt", "0.08333333333333333"},
-                                                  PresetValue{"mechanics.interval", "16", Sheet::elastic},
+                                                  PresetValue{"mechanics.interval", "20", Sheet::elastic},
                                                   PresetValue{"mechanics.tolerance", "1e-4", Sheet::elastic},
                                               });
 

@@ -35,6 +35,8 @@ void expect_promises(const nlohmann::json& settings, std::vector<std::string> al
   for (const auto& of : balanced)
     EXPECT_LT(error(settings, "balanced", of), error(settings, "paper", of)) << of;
   for (const auto& of : fast) EXPECT_LT(error(settings, "fast", of), 2) << of;
+  for (const char* of : {"apd", "field_half", "field_end"})
+    EXPECT_LT(error(settings, "balanced", of), error(settings, "fast", of)) << of;
 }
 
 TEST(Presets, OfARigidSheetKeepTheirPromises) {

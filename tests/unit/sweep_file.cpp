@@ -229,6 +229,11 @@ TEST(SweepFile, ShippedSweeps) {
   EXPECT_EQ(fig11.runs[0].scene.grid.rows, 121);
   EXPECT_EQ(read_sweep(folder + "breakup_mu1_fine.toml").runs.size(), 400u);
   EXPECT_EQ(read_sweep(folder + "breakup_map.toml").runs.size(), 70u);
+  EXPECT_EQ(read_sweep(folder + "breakup_presets.toml").runs.size(), 40u);
+  const auto drift = read_sweep(folder + "drift_presets.toml");
+  EXPECT_EQ(drift.runs.size(), 16u);
+  EXPECT_EQ(drift.runs[0].scene.time.dt, 0.02);
+  EXPECT_EQ(drift.runs[4].scene.time.dt, 0.125);
 }
 
 }  // namespace
