@@ -61,9 +61,10 @@ constexpr auto balanced = joined(large_steps, std::array{
 constexpr std::array reference{
     PresetValue{"accuracy.dx", "0.3"},
     PresetValue{"time.dt", "0.014285714285714285", Sheet::rigid},
-    PresetValue{"time.dt", "0.0125", Sheet::elastic},  // a contracted sheet bears no longer one
+    PresetValue{"time.dt", "0.0125", Sheet::elastic},  // most contracted sheets bear it undivided
     PresetValue{"accuracy.precision", "\"float64\""},
     PresetValue{"accuracy.scheme", "\"split\""},
+    PresetValue{"accuracy.on_unstable", "\"substep\"", Sheet::elastic},
     PresetValue{"output.watch_every", "0.2"},
     PresetValue{"feedback.time", "\"quadratic\"", Sheet::elastic},
     PresetValue{"mechanics.interval", "16", Sheet::elastic},

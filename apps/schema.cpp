@@ -319,10 +319,10 @@ std::vector<Section> make_schema() {
        {{"preset", "", preset(),
          "Accuracy by one word: time.dt, and of accuracy, feedback, mechanics and output what it takes. What "
          "the scene names itself stays; a preset given by --set changes it. `paper` steps as the paper, its "
-         "waves 3.4 % slow; `fast` is within 1.5 % in wave speed, period and shortening, 6 times as fast "
-         "where the sheet contracts and 17 times where it is rigid; `balanced` is within 0.3 % in wave speed "
-         "and period, 2 % in the shortening, 4 and 5 times as fast; `reference` is within 0.1 %, 12 to 16 "
-         "times as slow."},
+         "waves 3.4 % slow. `fast` is within 1.5 % in wave speed, period and shortening, 5 times as fast "
+         "where the sheet contracts and 16 times where it is rigid; `balanced` is within 0.3 % in wave speed "
+         "and period and 2 % in the shortening, 4 and 5 times as fast; `reference` is within 0.2 % and 12 to "
+         "15 times as slow."},
         {"dx", "length units", number(MYOWAVE_AT(scene.dx), not_negative),
          "The run takes the largest node spacing up to this that divides the elements, or the sides of a "
          "rigid "
