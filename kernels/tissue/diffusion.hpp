@@ -4,8 +4,11 @@
 //                            SIMD loop needs; r.prefetch(j)
 //   at(V, m, i, j)           the same at any node, boundaries included; V of shape (members, rows, columns)
 //   mirrored_edges           whether row() holds at the edges too, on mirrored neighbours
+//   mirrors_ends             whether they count there: in a network of edges those outside weigh nothing, and
+//                            what lies at their ends need only be finite
 //   metric_rows(...)         row() for a team that goes up the rows; a form that does not load its metric
-//                            prepares it there, in scratch_rows(slots) rows of scratch memory
+//                            prepares it there, in scratch_rows(slots) rows of scratch memory; its
+//                            rows_in_memory(i, rows) are those that row i takes from metric_arrays arrays
 #pragma once
 
 #include "kernels/base/row_loop.hpp"
@@ -35,7 +38,7 @@ struct IdentityDiffusion {
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name = stencil == Stencil::nine_point ? "identity_nine_point" : "identity";
-  static constexpr bool mirrored_edges = true;
+  static constexpr bool mirrored_edges = true, mirrors_ends = true;
 
   Grid grid;
   Real inverse_dx2 = 0;
@@ -57,10 +60,12 @@ struct IdentityDiffusion {
 
   struct RowsOfTile {
     Real inverse_dx2;
+    KOKKOS_FORCEINLINE_FUNCTION void rows_in_memory(int, const Real**) const {}
     KOKKOS_FORCEINLINE_FUNCTION void begin(int) const {}
     KOKKOS_FORCEINLINE_FUNCTION void prepare(int) const {}
     KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int) const { return {V, inverse_dx2}; }
   };
+  static constexpr int metric_arrays = 0;
   template <int pitch>
   static constexpr int scratch_rows(int) {
     return 0;
@@ -127,7 +132,7 @@ struct ConservativeDiffusion {
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name =
       stencil == Stencil::nine_point ? "conservative_nine_point" : "conservative";
-  static constexpr bool mirrored_edges = true;
+  static constexpr bool mirrored_edges = true, mirrors_ends = false;
 
   Grid grid;
   ConservativeMetric<Real, MemorySpace, stencil> metric;
@@ -196,6 +201,13 @@ struct ConservativeDiffusion {
     int member, origin, inside;
     Weights weights;
 
+    KOKKOS_FORCEINLINE_FUNCTION void rows_in_memory(int i, const Real** rows) const {
+      rows[0] = &metric.east(member, i + 1, origin + 1);
+      rows[1] = &metric.north(member, i + 1, origin + 1);
+      rows[2] = &metric.diagonal(member, i + 1, origin + 1);
+      rows[3] = &metric.inverse_mass(member, i + 1, origin + 1);
+      if constexpr (stencil == Stencil::nine_point) rows[4] = &metric.antidiagonal(member, i + 1, origin + 1);
+    }
     KOKKOS_FORCEINLINE_FUNCTION void begin(int i) const { prepare(i - 1); }
     KOKKOS_FORCEINLINE_FUNCTION void prepare(int i) const {
       copy(metric.east, weights.east(i), i);
@@ -212,11 +224,10 @@ struct ConservativeDiffusion {
     KOKKOS_FORCEINLINE_FUNCTION void copy(const EnsembleField<Real, MemorySpace>& view, Real* to,
                                           int i) const {
       const Real* const from = &view(member, i + 1, origin + 1);
-      const Real* const next = from + view.stride(1);
-      columns.template each<Real>(
-          0, inside, [=](int j) { to[j] = from[j]; }, [=](int j) { prefetch_to_read(next + j); });
+      columns.each(0, inside, [=](int j) { to[j] = from[j]; });
     }
   };
+  static constexpr int metric_arrays = stencil == Stencil::nine_point ? 5 : 4;
   template <int pitch>
   static constexpr int scratch_rows(int slots) {
     return WeightRows<Real, pitch, stencil>::rows(slots);

@@ -177,6 +177,21 @@ struct TiledStep {
     KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + pitch; }
   };
 
+  // The rows in memory that a front is the first to read, and those that it writes. Its loops alone would
+  // wait for them, so hints to fetch them go out during the front before, some columns with each of its
+  // levels: all at once they would keep its own rows, which come from the cache, waiting.
+  struct RowsToCome {
+    static constexpr int states = Model::has_tension ? 3 : 2;
+    const Real* read[states + Diffusion::metric_arrays];
+    const Real* written[states];
+    KOKKOS_FORCEINLINE_FUNCTION void fetch(int begin, int end) const {
+      for (int j = begin; j < end; j += line) {
+        for (const Real* row : read) prefetch_to_read(row + j);
+        for (const Real* row : written) prefetch_to_write(row + j);
+      }
+    }
+  };
+
   // From where to where the steps of a sweep go.
   struct Sweep {
     const ExcitationFields<View>&from, &to;
@@ -204,10 +219,13 @@ struct TiledStep {
     const Columns columns = columns_of(team);
     const int first = Kokkos::max(0, tile.first_row - depth);
     const int top = Kokkos::min(rows, tile.last_row + depth);
+    const int share = round_up(tiles_of(tile.inside, depth));  // of the columns, to a level
     metric.begin(Kokkos::max(0, tile.first_row - depth + 1));
     for (int front = first; front < tile.last_row + lag * depth; ++front) {
+      [[maybe_unused]] const RowsToCome next = rows_to_come(tile, sweep, metric, front + 1);
       if (front < top) load(columns, tile, sweep, rings, front);
       for (int level = 1; level <= depth; ++level) {
+        if constexpr (on_host) next.fetch((level - 1) * share, Kokkos::min(level * share, tile.inside));
         const int i = front - lag * level, halo = depth - level;
         if (i < Kokkos::max(0, tile.first_row - halo) || i >= Kokkos::min(rows, tile.last_row + halo))
           continue;
@@ -237,6 +255,22 @@ struct TiledStep {
             last_column,  origin,    width,    Kokkos::min(width, columns - origin)};
   }
 
+  template <class Metric>
+  KOKKOS_FORCEINLINE_FUNCTION RowsToCome rows_to_come(const Tile& tile, const Sweep& sweep,
+                                                      const Metric& metric, int front) const {
+    const int m = tile.member, origin = tile.origin, top = diffusion.grid.rows - 1;
+    const int loaded = Kokkos::min(front, top), first = Kokkos::clamp(front - lag, 0, top),
+              last = Kokkos::clamp(front - lag * plan.depth, tile.first_row, tile.last_row - 1);
+    RowsToCome rows{{&sweep.from.V(m, loaded, origin), &sweep.from.r(m, first, origin)},
+                    {&sweep.to.V(m, last, origin), &sweep.to.r(m, last, origin)}};
+    if constexpr (Model::has_tension) {
+      rows.read[2] = &sweep.from.Ta(m, first, origin);
+      rows.written[2] = &sweep.to.Ta(m, last, origin);
+    }
+    metric.rows_in_memory(first, rows.read + RowsToCome::states);
+    return rows;
+  }
+
   // Entries beside the computed columns, and those outside the sheet, are zero: what comes of them is
   // finite and never used.
   KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team, const Tile& tile) const {
@@ -257,6 +291,7 @@ struct TiledStep {
 
   // The neighbours outside the sheet, of a row on the way: V(-1) = V(1), V(n) = V(n - 2).
   KOKKOS_FORCEINLINE_FUNCTION void mirror_ends(const Columns& columns, const Tile& tile, Real* V) const {
+    if constexpr (!Diffusion::mirrors_ends) return;
     const int right = diffusion.grid.columns - tile.origin;
     if (tile.origin > 0 && right > tile.width) return;
     columns.wait();
@@ -270,9 +305,7 @@ struct TiledStep {
                                         const Rings& rings, int i) const {
     Real* const V = rings.V(0, i);
     const Real* const from = &sweep.from.V(tile.member, i, tile.origin);
-    const Real* const next = from + diffusion.grid.columns;
-    columns.template each<Real>(
-        0, tile.inside, [=](int j) { V[j] = from[j]; }, [=](int j) { prefetch_to_read(next + j); });
+    columns.each(0, tile.inside, [=](int j) { V[j] = from[j]; });
     mirror_ends(columns, tile, V);
   }
 
@@ -285,7 +318,6 @@ struct TiledStep {
     const int owned = tile.first_column - origin;
     const auto row = metric.row(V, i);
     const bool first = level == 1, last = level == plan.depth;
-    const int next_row = diffusion.grid.columns;
     const NodeUpdate<Model> update{model,
                                    dt,
                                    V.here,
@@ -299,12 +331,9 @@ struct TiledStep {
              update.r + owned);
     const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
     if (last)
-      columns.template each<Real>(owned, tile.last_column - origin, at,
-                                  [=](int j) { update.prefetch(j + next_row); });
-    else if (first)
-      columns.template each<Real>(0, tile.inside, at, [=](int j) { update.prefetch(j + next_row); });
+      columns.each(owned, tile.last_column - origin, at);
     else
-      columns.each(0, tile.width, at);
+      columns.each(0, first ? tile.inside : tile.width, at);
     if (!last) mirror_ends(columns, tile, update.V_next);
   }
 

@@ -18,6 +18,7 @@ namespace myowave::transfer {
 template <class Real, class MemorySpace>
 struct DeformedDiffusion {
   using Scalar = Real;
+  static constexpr bool mirrors_ends = false;
 
   tissue::Grid grid;
   elastic::ElementGrid elements;
@@ -41,6 +42,7 @@ struct DeformedDiffusion {
     // Six numbers of the element of each cell: e, d and x_,2.
     KOKKOS_FORCEINLINE_FUNCTION Real* edges() const { return rest + 4 * pitch; }
 
+    KOKKOS_FORCEINLINE_FUNCTION void rows_in_memory(int, const Real**) const {}
     KOKKOS_FORCEINLINE_FUNCTION void begin(int i) const {
       const auto zero = [&](Real* row, int first) {
         columns.each(first, inside, [=](int j) { row[j] = 0; });
@@ -148,6 +150,7 @@ struct DeformedDiffusion {
     }
   };
 
+  static constexpr int metric_arrays = 0;
   template <int pitch>
   static constexpr int scratch_rows(int slots) {
     return tissue::WeightRows<Real, pitch>::rows(slots) + 10;
