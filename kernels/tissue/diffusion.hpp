@@ -4,10 +4,10 @@
 //                            SIMD loop needs; r.prefetch(j)
 //   at(V, m, i, j)           the same at any node, boundaries included; V of shape (members, rows, columns)
 //   mirrored_edges           whether row() holds at the edges too, on mirrored neighbours
-//   mirrors_ends             whether they count there: in a network of edges those outside weigh nothing, and
+//   mirrors                  whether they count there: in a network of edges those outside weigh nothing, and
 //                            what lies at their ends need only be finite
 //   metric_rows(...)         row() for a team that goes up the rows; a form that does not load its metric
-//                            prepares it there, in scratch_rows(slots) rows of scratch memory; its
+//                            prepares it there, in scratch_entries(slots, pitch) of scratch memory; its
 //                            rows_in_memory(i, rows) are those that row i takes from metric_arrays arrays
 #pragma once
 
@@ -15,6 +15,19 @@
 #include "kernels/tissue/metric.hpp"
 
 namespace myowave::tissue {
+
+// Entries of an array of scratch rows `pitch` apart; a line more, so that arrays do not fall on one another
+// in a cache.
+template <class Real>
+KOKKOS_FORCEINLINE_FUNCTION constexpr int array_entries(int rows, int pitch) {
+  return rows * pitch + detail::line_of<Real>;
+}
+
+// A number that the compiler knows.
+template <int number>
+struct Constant {
+  KOKKOS_FUNCTION constexpr operator int() const { return number; }
+};
 
 // V in three neighbouring rows, all three from the same column on.
 template <class Real>
@@ -38,7 +51,7 @@ struct IdentityDiffusion {
   using Space = MemorySpace;
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name = stencil == Stencil::nine_point ? "identity_nine_point" : "identity";
-  static constexpr bool mirrored_edges = true, mirrors_ends = true;
+  static constexpr bool mirrored_edges = true, mirrors = true;
 
   Grid grid;
   Real inverse_dx2 = 0;
@@ -66,12 +79,9 @@ struct IdentityDiffusion {
     KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int) const { return {V, inverse_dx2}; }
   };
   static constexpr int metric_arrays = 0;
-  template <int pitch>
-  static constexpr int scratch_rows(int) {
-    return 0;
-  }
-  template <int pitch, class Columns>
-  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile metric_rows(const Columns&, int, int, int, Real*, int) const {
+  KOKKOS_FUNCTION static constexpr int scratch_entries(int, int) { return 0; }
+  template <class Columns, class Pitch>
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile metric_rows(const Columns&, int, int, int, Real*, int, Pitch) const {
     return {inverse_dx2};
   }
 
@@ -85,38 +95,66 @@ struct IdentityDiffusion {
   }
 };
 
-// Weights of the edge network in a few neighbouring rows of a tile, in scratch rows of `pitch` entries. The
-// rows lie at constant distances, so that a loop over columns needs two addresses for all of them.
-template <class Real, int pitch, Stencil stencil = Stencil::five_point>
+// Weights of the edge network, of a row and the one below it, all from the same column on. Five points have
+// no antidiagonals of their own.
+template <class Real, Stencil stencil = Stencil::five_point>
+struct EdgeWeights {
+  const Real* KOKKOS_RESTRICT east_;
+  const Real* KOKKOS_RESTRICT north_;
+  const Real* KOKKOS_RESTRICT north_below_;
+  const Real* KOKKOS_RESTRICT diagonal_;
+  const Real* KOKKOS_RESTRICT diagonal_below_;
+  const Real* KOKKOS_RESTRICT inverse_mass_;
+  const Real* KOKKOS_RESTRICT antidiagonal_;
+  const Real* KOKKOS_RESTRICT antidiagonal_below_;
+  KOKKOS_FORCEINLINE_FUNCTION Real east(int j) const { return east_[j]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real north(int j) const { return north_[j]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return north_below_[j]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return diagonal_[j]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return diagonal_below_[j]; }
+  KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal(int j) const {
+    return stencil == Stencil::nine_point ? antidiagonal_[j] : -diagonal(j);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal_below(int j) const {
+    return stencil == Stencil::nine_point ? antidiagonal_below_[j] : -diagonal_below(j);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return inverse_mass_[j]; }
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
+    prefetch_to_read(east_ + j);
+    prefetch_to_read(north_ + j);
+    prefetch_to_read(diagonal_ + j);
+    if constexpr (stencil == Stencil::nine_point) prefetch_to_read(antidiagonal_ + j);
+    prefetch_to_read(inverse_mass_ + j);
+  }
+};
+
+// The weights of a few neighbouring rows of a tile in scratch rows, one array for each kind.
+template <class Real, class Pitch, Stencil stencil = Stencil::five_point>
 struct WeightRows {
   Real* begin;  // the tile's first column, aligned
-  int slots;    // a power of two; row i lies at i modulo slots
+  int slots;
+  Pitch pitch;
 
   static constexpr int kinds = stencil == Stencil::nine_point ? 5 : 4;
-  static constexpr int rows(int slots) { return kinds * slots; }
-  KOKKOS_FORCEINLINE_FUNCTION Real* east(int i) const { return begin + (i & (slots - 1)) * kinds * pitch; }
-  KOKKOS_FORCEINLINE_FUNCTION Real* north(int i) const { return east(i) + pitch; }
-  KOKKOS_FORCEINLINE_FUNCTION Real* diagonal(int i) const { return east(i) + 2 * pitch; }
-  KOKKOS_FORCEINLINE_FUNCTION Real* inverse_mass(int i) const { return east(i) + 3 * pitch; }
-  KOKKOS_FORCEINLINE_FUNCTION Real* antidiagonal(int i) const { return east(i) + 4 * pitch; }
+  KOKKOS_FUNCTION static constexpr int entries(int slots, int pitch) {
+    return kinds * array_entries<Real>(slots, pitch);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real* east(int i) const { return row(0, i); }
+  KOKKOS_FORCEINLINE_FUNCTION Real* north(int i) const { return row(1, i); }
+  KOKKOS_FORCEINLINE_FUNCTION Real* diagonal(int i) const { return row(2, i); }
+  KOKKOS_FORCEINLINE_FUNCTION Real* inverse_mass(int i) const { return row(3, i); }
+  KOKKOS_FORCEINLINE_FUNCTION Real* antidiagonal(int i) const {
+    return row(stencil == Stencil::nine_point ? 4 : 2, i);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION EdgeWeights<Real, stencil> of_row(int i) const {
+    return {east(i),         north(i),        north(i - 1),    diagonal(i),
+            diagonal(i - 1), inverse_mass(i), antidiagonal(i), antidiagonal(i - 1)};
+  }
 
-  struct OfRow {
-    const Real* here;
-    const Real* row_below;
-    KOKKOS_FORCEINLINE_FUNCTION Real east(int j) const { return here[j]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real north(int j) const { return here[j + pitch]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return row_below[j + pitch]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return here[j + 2 * pitch]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return row_below[j + 2 * pitch]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal(int j) const {
-      return stencil == Stencil::nine_point ? here[j + 4 * pitch] : -diagonal(j);
-    }
-    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal_below(int j) const {
-      return stencil == Stencil::nine_point ? row_below[j + 4 * pitch] : -diagonal_below(j);
-    }
-    KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return here[j + 3 * pitch]; }
-  };
-  KOKKOS_FORCEINLINE_FUNCTION OfRow of_row(int i) const { return {east(i), east(i - 1)}; }
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION Real* row(int kind, int i) const {
+    return begin + kind * array_entries<Real>(slots, pitch) + (i & (slots - 1)) * pitch;
+  }
 };
 
 // `conservative`: the gradient of the cell energies
@@ -132,7 +170,7 @@ struct ConservativeDiffusion {
   using ConstView = EnsembleField<const Real, MemorySpace>;
   static constexpr const char* name =
       stencil == Stencil::nine_point ? "conservative_nine_point" : "conservative";
-  static constexpr bool mirrored_edges = true, mirrors_ends = false;
+  static constexpr bool mirrored_edges = true, mirrors = false;
 
   Grid grid;
   ConservativeMetric<Real, MemorySpace, stencil> metric;
@@ -142,10 +180,9 @@ struct ConservativeDiffusion {
       : grid(g), metric(coefficients) {}
 
   // The diffusion along a row from the weights of its edges.
-  template <class Weights>
-  struct RowOf {
+  struct Row {
     StencilRows<Real> rows;
-    Weights w;
+    EdgeWeights<Real, stencil> w;
     KOKKOS_FORCEINLINE_FUNCTION Real operator()(int west, int j, int east) const {
       const auto& [below, here, above] = rows;
       const Real V = here[j];
@@ -162,44 +199,12 @@ struct ConservativeDiffusion {
     }
   };
 
-  // Of a row in memory, shifted by one (see ConservativeMetric).
-  struct Loaded {
-    const Real* KOKKOS_RESTRICT east_;
-    const Real* KOKKOS_RESTRICT north_;
-    const Real* KOKKOS_RESTRICT north_below_;
-    const Real* KOKKOS_RESTRICT diagonal_;
-    const Real* KOKKOS_RESTRICT diagonal_below_;
-    const Real* KOKKOS_RESTRICT antidiagonal_;
-    const Real* KOKKOS_RESTRICT antidiagonal_below_;
-    const Real* KOKKOS_RESTRICT inverse_mass_;
-    KOKKOS_FORCEINLINE_FUNCTION Real east(int j) const { return east_[j + 1]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real north(int j) const { return north_[j + 1]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real north_below(int j) const { return north_below_[j + 1]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real diagonal(int j) const { return diagonal_[j + 1]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real diagonal_below(int j) const { return diagonal_below_[j + 1]; }
-    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal(int j) const {
-      return stencil == Stencil::nine_point ? antidiagonal_[j + 1] : -diagonal(j);
-    }
-    KOKKOS_FORCEINLINE_FUNCTION Real antidiagonal_below(int j) const {
-      return stencil == Stencil::nine_point ? antidiagonal_below_[j + 1] : -diagonal_below(j);
-    }
-    KOKKOS_FORCEINLINE_FUNCTION Real inverse_mass(int j) const { return inverse_mass_[j + 1]; }
-    KOKKOS_FORCEINLINE_FUNCTION void prefetch(int j) const {
-      prefetch_to_read(east_ + j);
-      prefetch_to_read(north_ + j);
-      prefetch_to_read(diagonal_ + j);
-      if constexpr (stencil == Stencil::nine_point) prefetch_to_read(antidiagonal_ + j);
-      prefetch_to_read(inverse_mass_ + j);
-    }
-  };
-
-  template <int pitch, class Columns>
+  template <class Columns, class Pitch>
   struct RowsOfTile {
-    using Weights = WeightRows<Real, pitch, stencil>;
     ConservativeMetric<Real, MemorySpace, stencil> metric;
     Columns columns;
     int member, origin, inside;
-    Weights weights;
+    WeightRows<Real, Pitch, stencil> weights;
 
     KOKKOS_FORCEINLINE_FUNCTION void rows_in_memory(int i, const Real** rows) const {
       rows[0] = &metric.east(member, i + 1, origin + 1);
@@ -216,8 +221,8 @@ struct ConservativeDiffusion {
       if constexpr (stencil == Stencil::nine_point) copy(metric.antidiagonal, weights.antidiagonal(i), i);
       copy(metric.inverse_mass, weights.inverse_mass(i), i);
     }
-    KOKKOS_FORCEINLINE_FUNCTION auto row(const StencilRows<Real>& V, int i) const {
-      return RowOf<typename Weights::OfRow>{V, weights.of_row(i)};
+    KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int i) const {
+      return {V, weights.of_row(i)};
     }
 
    private:
@@ -228,25 +233,25 @@ struct ConservativeDiffusion {
     }
   };
   static constexpr int metric_arrays = stencil == Stencil::nine_point ? 5 : 4;
-  template <int pitch>
-  static constexpr int scratch_rows(int slots) {
-    return WeightRows<Real, pitch, stencil>::rows(slots);
+  KOKKOS_FUNCTION static constexpr int scratch_entries(int slots, int pitch) {
+    return WeightRows<Real, int, stencil>::entries(slots, pitch);
   }
-  template <int pitch, class Columns>
-  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<pitch, Columns> metric_rows(const Columns& columns, int m,
+  template <class Columns, class Pitch>
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<Columns, Pitch> metric_rows(const Columns& columns, int m,
                                                                      int origin, int width, Real* scratch,
-                                                                     int slots) const {
-    return {metric, columns, m, origin, Kokkos::min(width, grid.columns - origin), {scratch, slots}};
+                                                                     int slots, Pitch pitch) const {
+    return {metric, columns, m, origin, Kokkos::min(width, grid.columns - origin), {scratch, slots, pitch}};
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION RowOf<Loaded> row(const StencilRows<Real>& V, int m, int i, int origin) const {
+  // Rows in memory are shifted by one (see ConservativeMetric).
+  KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int m, int i, int origin) const {
     // Of five points its place is taken by one that is there, and not looked at.
     const auto& antidiagonal = stencil == Stencil::nine_point ? metric.antidiagonal : metric.diagonal;
-    return {
-        V,
-        {&metric.east(m, i + 1, origin), &metric.north(m, i + 1, origin), &metric.north(m, i, origin),
-         &metric.diagonal(m, i + 1, origin), &metric.diagonal(m, i, origin), &antidiagonal(m, i + 1, origin),
-         &antidiagonal(m, i, origin), &metric.inverse_mass(m, i + 1, origin)}};
+    const int j = origin + 1;
+    return {V,
+            {&metric.east(m, i + 1, j), &metric.north(m, i + 1, j), &metric.north(m, i, j),
+             &metric.diagonal(m, i + 1, j), &metric.diagonal(m, i, j), &metric.inverse_mass(m, i + 1, j),
+             &antidiagonal(m, i + 1, j), &antidiagonal(m, i, j)}};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Real at(const ConstView& V, int m, int i, int j) const {

@@ -33,7 +33,7 @@ struct MonodomainStep {
   // A block of rows by one thread of a host.
   KOKKOS_FUNCTION void operator()(int block) const {
     for (int i = first_row(block); i < last_row(block); ++i)
-      advance_row(HostColumns{}, block / blocks_per_member, i);
+      advance_row(HostColumns<Real>{}, block / blocks_per_member, i);
   }
 
   // A block by a device's team, a row by each of its threads.

@@ -122,7 +122,7 @@ KOKKOS_FORCEINLINE_FUNCTION void update_row(const Columns& lanes, int begin, int
   // Between 1 and 4 kB ahead it is all the same on an EPYC.
   constexpr int ahead = 2048 / sizeof(typename Update::Real);
   const int right = columns - 1;
-  lanes.template each<typename Update::Real>(
+  lanes.each(
       Kokkos::max(begin, 1), Kokkos::min(end, right), [=](int j) { update(j, row(j - 1, j, j + 1)); },
       [=](int j) {
         row.prefetch(j + ahead);

@@ -60,53 +60,58 @@ struct TiledStep {
   using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
   using TeamMember = typename Policy::member_type;
   static constexpr bool on_host = runs_on_host<ExecutionSpace>;
-  using Columns = std::conditional_t<on_host, HostColumns, TeamColumns<TeamMember>>;
+  using Columns = std::conditional_t<on_host, HostColumns<Real>, TeamColumns<TeamMember>>;
 
-  // Rows i - 1 ... i + lag of V between two levels. Slots are powers of two, so that a row finds its own
+  // Fronts of which V is on the way, the last lag + 2, and a power of two, so that a row finds its place
   // without a division.
-  static constexpr int V_slots = 4;
-  static_assert(lag + 2 <= V_slots);
+  static constexpr int V_fronts = 4;
+  static_assert(lag + 2 <= V_fronts);
   // Scratch of a device is the fast memory of a multiprocessor; on a host it is what stays in a cache.
   static constexpr int scratch_level = on_host ? 1 : 0;
   // Entries of a line of the cache: rows on the way begin at one, which makes a step on a host 1.6 times as
   // fast as rows that begin anywhere.
-  static constexpr int line = detail::line_bytes / static_cast<int>(sizeof(Real));
+  static constexpr int line = detail::line_of<Real>;
+
+  static constexpr int round_up(int columns) { return (columns + line - 1) / line * line; }
+  // Rows of r, Ta and the metric on the way.
+  KOKKOS_FUNCTION static constexpr int slots_of(int depth) {
+    int power = 1;
+    while (power < lag * (depth - 1) + (without_metric ? 1 : 2)) power *= 2;
+    return power;
+  }
+  // Wide tiles compute fewer columns twice; where the weights of edges are on the way too, a host's cache
+  // holds the rows of narrower ones only.
+  static constexpr bool without_metric = Diffusion::scratch_entries(1, 1) == 0;
+  static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
+  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real)), deepest = 15;
+  // Entries from one scratch row to the next: the computed columns and a line at least, for the neighbours
+  // beyond the ends of both; an odd number of lines, so that rows do not fall on one another in a cache.
+  static constexpr int pitch_of(int computed) { return line * ((1 + (computed + line - 1) / line) | 1); }
+  static constexpr int most_computed(int columns, int depth) { return columns + 2 * (depth + line - 1); }
+  static constexpr int widest_pitch = pitch_of(most_computed(widest_tile, deepest));
+  // A device knows it beforehand: rows at a fixed distance need no address of their own. On a host the rows
+  // of a small sheet lie close together: they would be in more pages than a processor finds at once.
+  using Pitch = std::conditional_t<on_host, int, Constant<widest_pitch>>;
+  static constexpr int state_arrays = Model::has_tension ? 2 : 1;
+  // V, r and Ta, the metric; and a line before them.
+  KOKKOS_FUNCTION static constexpr int scratch_entries(int depth, int pitch) {
+    return line + V_fronts * array_entries<Real>(depth, pitch) +
+           state_arrays * array_entries<Real>(slots_of(depth), pitch) +
+           Diffusion::scratch_entries(slots_of(depth), pitch);
+  }
+  static constexpr std::size_t scratch_bytes(int depth, int pitch) {
+    return static_cast<std::size_t>(scratch_entries(depth, pitch)) * sizeof(Real) + detail::line_bytes;
+  }
 
   Diffusion diffusion;
   Model model;
   Real dt;
   TilePlan plan;  // with its box
   int row_tiles, column_tiles;
+  Pitch pitch;
   ExcitationFields<View> old_state, new_state;
   int first_step;
   Recorder record;
-
-  static constexpr int round_up(int columns) { return (columns + line - 1) / line * line; }
-  KOKKOS_FUNCTION static constexpr int power_of_two(int n) {
-    int power = 1;
-    while (power < n) power *= 2;
-    return power;
-  }
-  // Rows of r, and of Ta, on the way.
-  KOKKOS_FUNCTION static constexpr int state_slots(int depth) { return power_of_two(lag * (depth - 1) + 1); }
-  KOKKOS_FUNCTION static constexpr int metric_slots(int depth) { return power_of_two(lag * (depth - 1) + 2); }
-  // Entries of a scratch row: a line for the neighbour on the left, the columns of the widest tile and those
-  // around it, and one for the neighbour on the right; an odd number of lines, so that rows do not fall on
-  // one another in a cache. Constant, so that rows at a fixed distance need no address of their own. Wide
-  // tiles compute fewer columns twice; where the weights of edges are on the way too, a host's cache holds
-  // the rows of narrower ones only.
-  static constexpr bool without_metric = Diffusion::template scratch_rows<line>(1) == 0;
-  static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
-  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real)), deepest = 15;
-  static constexpr int pitch = line * ((3 + (widest_tile + 2 * (deepest + line - 1)) / line) / 2 * 2 + 1);
-  static constexpr int state_rows = Model::has_tension ? 2 : 1;
-  static constexpr int scratch_rows(int depth) {
-    return V_slots * depth + state_rows * state_slots(depth) +
-           Diffusion::template scratch_rows<pitch>(metric_slots(depth));
-  }
-  static constexpr std::size_t scratch_bytes(int depth) {
-    return static_cast<std::size_t>(scratch_rows(depth)) * pitch * sizeof(Real) + detail::line_bytes;
-  }
 
   // Eight warps go along a row of a device's tile, one column a lane; on a host a team is one thread.
   static constexpr int warps = on_host ? 1 : 8, lanes = on_host ? 1 : 32;
@@ -116,7 +121,7 @@ struct TiledStep {
   static int largest_depth() {
     const std::size_t room = on_host ? 512 * 1024 : Policy::scratch_size_max(scratch_level) / 2;
     int depth = deepest;
-    while (depth > 1 && scratch_bytes(depth) > room) --depth;
+    while (depth > 1 && scratch_bytes(depth, widest_pitch) > room) --depth;
     return depth;
   }
 
@@ -148,10 +153,13 @@ struct TiledStep {
     if (plan.box.rows() == 0) plan.box = whole(diffusion.grid);
     const int row_tiles = tiles_of(plan.box.rows(), plan.rows),
               column_tiles = tiles_of(plan.box.columns(), plan.columns);
-    const TiledStep step{diffusion,    model,     Real(dt),  plan,       row_tiles,
-                         column_tiles, old_state, new_state, first_step, record};
+    Pitch pitch{};
+    if constexpr (on_host)
+      pitch = pitch_of(Kokkos::min(diffusion.grid.columns, most_computed(plan.columns, plan.depth)));
+    const TiledStep step{diffusion, model,     Real(dt),  plan,       row_tiles, column_tiles,
+                         pitch,     old_state, new_state, first_step, record};
     Policy policy(space, members * row_tiles * column_tiles, warps, lanes);
-    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(scratch_bytes(plan.depth)));
+    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(scratch_bytes(plan.depth, pitch)));
     Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
 
@@ -163,18 +171,17 @@ struct TiledStep {
     int inside;  // those of them inside the sheet
   };
 
-  // What a team has on the way: V after level 0 (loaded) ... depth - 1, r and Ta, by row modulo the slots;
-  // every pointer is that of column `origin`.
+  // What a team has on the way; every pointer is that of column `origin`. V lies by the front that took the
+  // row to its level, 0 (loaded) ... depth - 1; r, Ta and the metric by row modulo the slots.
   struct Rings {
     Real *V_begin, *r_begin, *metric_begin;
-    int slots;
-    KOKKOS_FORCEINLINE_FUNCTION Real* V(int level, int i) const {
-      return V_begin + (V_slots * level + (i & (V_slots - 1))) * pitch;
+    int depth, slots;
+    Pitch pitch;
+    KOKKOS_FORCEINLINE_FUNCTION Real* V(int front, int level) const {
+      return V_begin + (front & (V_fronts - 1)) * array_entries<Real>(depth, pitch) + level * pitch;
     }
-    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const {
-      return r_begin + (i & (slots - 1)) * state_rows * pitch;
-    }
-    KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + pitch; }
+    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const { return r_begin + (i & (slots - 1)) * pitch; }
+    KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + array_entries<Real>(slots, pitch); }
   };
 
   // The rows in memory that a front is the first to read, and those that it writes. Its loops alone would
@@ -201,9 +208,9 @@ struct TiledStep {
   KOKKOS_FUNCTION void operator()(const TeamMember& team) const {
     const Tile tile = tile_of(team.league_rank());
     const Columns columns = columns_of(team);
-    const Rings rings = make_rings(team, tile);
-    const auto metric = diffusion.template metric_rows<pitch>(columns, tile.member, tile.origin, tile.width,
-                                                              rings.metric_begin, metric_slots(plan.depth));
+    const Rings rings = make_rings(team);
+    const auto metric = diffusion.metric_rows(columns, tile.member, tile.origin, tile.width,
+                                              rings.metric_begin, rings.slots, pitch);
     for (int n = 0; n < plan.sweeps; ++n) {
       const bool back = n % 2 == 1;
       go_up(team, tile, rings, metric,
@@ -230,7 +237,7 @@ struct TiledStep {
         if (i < Kokkos::max(0, tile.first_row - halo) || i >= Kokkos::min(rows, tile.last_row + halo))
           continue;
         if (level == 1) metric.prepare(i);
-        advance(columns, tile, sweep, rings, metric, level, i);
+        advance(columns, tile, sweep, rings, metric, front, level);
       }
       team.team_barrier();
     }
@@ -271,27 +278,23 @@ struct TiledStep {
     return rows;
   }
 
-  // Entries beside the computed columns, and those outside the sheet, are zero: what comes of them is
-  // finite and never used.
-  KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team, const Tile& tile) const {
-    const int depth = plan.depth, all = scratch_rows(depth);
+  // All zero: what comes of entries outside the sheet, and beside the computed columns, is finite and never
+  // used.
+  KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team) const {
+    const int depth = plan.depth, slots = slots_of(depth), entries = scratch_entries(depth, pitch);
     constexpr int fast = scratch_level;  // taken by reference, which a device can't of a static member
-    auto* const scratch = static_cast<Real*>(team.team_scratch(fast).get_shmem_aligned(
-        scratch_bytes(depth) - detail::line_bytes, detail::line_bytes));
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, all), [&](int n) {
-      Real* const row = scratch + n * pitch;
-      for (int j = 0; j < line; ++j) row[j] = 0;
-      for (int j = line + tile.inside; j < line + tile.width + 1; ++j) row[j] = 0;
-    });
+    auto* const scratch = static_cast<Real*>(
+        team.team_scratch(fast).get_shmem_aligned(entries * sizeof(Real), detail::line_bytes));
+    columns_of(team).each(0, entries, [=](int n) { scratch[n] = 0; });
     team.team_barrier();
     Real* const V = scratch + line;
-    Real* const r = V + V_slots * depth * pitch;
-    return {V, r, r + state_rows * state_slots(depth) * pitch, state_slots(depth)};
+    Real* const r = V + V_fronts * array_entries<Real>(depth, pitch);
+    return {V, r, r + state_arrays * array_entries<Real>(slots, pitch), depth, slots, pitch};
   }
 
   // The neighbours outside the sheet, of a row on the way: V(-1) = V(1), V(n) = V(n - 2).
   KOKKOS_FORCEINLINE_FUNCTION void mirror_ends(const Columns& columns, const Tile& tile, Real* V) const {
-    if constexpr (!Diffusion::mirrors_ends) return;
+    if constexpr (!Diffusion::mirrors) return;
     const int right = diffusion.grid.columns - tile.origin;
     if (tile.origin > 0 && right > tile.width) return;
     columns.wait();
@@ -303,7 +306,7 @@ struct TiledStep {
 
   KOKKOS_FORCEINLINE_FUNCTION void load(const Columns& columns, const Tile& tile, const Sweep& sweep,
                                         const Rings& rings, int i) const {
-    Real* const V = rings.V(0, i);
+    Real* const V = rings.V(i, 0);
     const Real* const from = &sweep.from.V(tile.member, i, tile.origin);
     columns.each(0, tile.inside, [=](int j) { V[j] = from[j]; });
     mirror_ends(columns, tile, V);
@@ -311,29 +314,37 @@ struct TiledStep {
 
   template <class Metric>
   KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Sweep& sweep,
-                                           const Rings& rings, const Metric& metric, int level, int i) const {
-    const int m = tile.member, origin = tile.origin, rows = diffusion.grid.rows;
-    const StencilRows<Real> V{rings.V(level - 1, mirrored(i - 1, rows)), rings.V(level - 1, i),
-                              rings.V(level - 1, mirrored(i + 1, rows))};
+                                           const Rings& rings, const Metric& metric, int front,
+                                           int level) const {
+    const int m = tile.member, origin = tile.origin, i = front - lag * level;
     const int owned = tile.first_column - origin;
-    const auto row = metric.row(V, i);
+    const Real* below = rings.V(front - lag - 1, level - 1);
+    const Real* const here = rings.V(front - lag, level - 1);
+    const Real* above = rings.V(front - lag + 1, level - 1);
+    if constexpr (Diffusion::mirrors) {
+      if (i == 0) below = above;
+      if (i == diffusion.grid.rows - 1) above = below;
+    }
+    const auto row = metric.row({below, here, above}, i);
     const bool first = level == 1, last = level == plan.depth;
     const NodeUpdate<Model> update{model,
                                    dt,
-                                   V.here,
+                                   here,
                                    first ? &sweep.from.r(m, i, origin) : rings.r(i),
                                    tension(first, sweep.from.Ta, rings, m, i, origin),
-                                   last ? &sweep.to.V(m, i, origin) : rings.V(level, i),
+                                   last ? &sweep.to.V(m, i, origin) : rings.V(front, level),
                                    last ? &sweep.to.r(m, i, origin) : rings.r(i),
                                    tension(last, sweep.to.Ta, rings, m, i, origin)};
     if (i >= tile.first_row && i < tile.last_row)
-      record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column, V.here + owned,
+      record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column, here + owned,
              update.r + owned);
     const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
     if (last)
       columns.each(owned, tile.last_column - origin, at);
+    else if (first)
+      columns.each(0, tile.inside, at);
     else
-      columns.each(0, first ? tile.inside : tile.width, at);
+      columns.each_of_whole_lines(tile.width, at);
     if (!last) mirror_ends(columns, tile, update.V_next);
   }
 

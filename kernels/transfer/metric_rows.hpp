@@ -18,19 +18,20 @@ namespace myowave::transfer {
 template <class Real, class MemorySpace>
 struct DeformedDiffusion {
   using Scalar = Real;
-  static constexpr bool mirrors_ends = false;
+  static constexpr bool mirrors = false;
 
   tissue::Grid grid;
   elastic::ElementGrid elements;
   int cells_per_element = 1;
   Nodes<MemorySpace> nodes;
 
-  template <int pitch, class Columns>
+  template <class Columns, class Pitch>
   struct RowsOfTile {
-    using Weights = tissue::WeightRows<Real, pitch>;
+    using Weights = tissue::WeightRows<Real, Pitch>;
     const DeformedDiffusion& form;
     Columns columns;
     int origin, inside;
+    Pitch pitch;
     Weights weights;
     Real* rest;  // ten rows more
 
@@ -44,16 +45,11 @@ struct DeformedDiffusion {
 
     KOKKOS_FORCEINLINE_FUNCTION void rows_in_memory(int, const Real**) const {}
     KOKKOS_FORCEINLINE_FUNCTION void begin(int i) const {
-      const auto zero = [&](Real* row, int first) {
-        columns.each(first, inside, [=](int j) { row[j] = 0; });
-      };
-      zero(G11(), 0), zero(J(), 0);
-      // Cells beyond the last column are never written.
-      zero(G22(), cells_inside()), zero(J_sum(), cells_inside());
-      for (int slot = 0; slot < weights.slots; ++slot)
-        zero(weights.east(slot), cells_inside()), zero(weights.diagonal(slot), cells_inside());
+      // Beyond the last column the scratch memory stays zero.
+      const auto zero = [&](Real* row) { columns.each(0, inside, [=](int j) { row[j] = 0; }); };
+      zero(G11()), zero(J());
       if (i == 0) {
-        zero(weights.north(-1), 0), zero(weights.diagonal(-1), 0);
+        zero(weights.north(-1)), zero(weights.diagonal(-1));
         return;
       }
       element_row((i - 1) / form.cells_per_element);
@@ -83,7 +79,7 @@ struct DeformedDiffusion {
 
     KOKKOS_FORCEINLINE_FUNCTION auto row(const tissue::StencilRows<Real>& V, int i) const {
       using Form = tissue::ConservativeDiffusion<Real, MemorySpace>;
-      return typename Form::template RowOf<typename Weights::OfRow>{V, weights.of_row(i)};
+      return typename Form::Row{V, weights.of_row(i)};
     }
 
    private:
@@ -100,6 +96,7 @@ struct DeformedDiffusion {
       const int cells = form.cells_per_element;
       const double inverse_h = 1 / mesh.h;
       Real* const to = edges();
+      const Pitch apart = pitch;
       columns.each(0, cells_inside(), [=](int j) {
         // exact for sheets of up to 2^20 columns, and without a division of integers
         const int J = static_cast<int>((static_cast<float>(first + j) + 0.5f) * per_element);
@@ -109,9 +106,9 @@ struct DeformedDiffusion {
           const double x00 = x(low, k), x10 = x(low + 1, k), x01 = x(high, k), x11 = x(high + 1, k);
           const Real bottom = Real((x10 - x00) * inverse_h), top = Real((x11 - x01) * inverse_h);
           const Real left = Real((x01 - x00) * inverse_h), right = Real((x11 - x10) * inverse_h);
-          to[j + k * pitch] = bottom;
-          to[j + (2 + k) * pitch] = top - bottom;
-          to[j + (4 + k) * pitch] = left + xi_1 * (right - left);
+          to[j + k * apart] = bottom;
+          to[j + (2 + k) * apart] = top - bottom;
+          to[j + (4 + k) * apart] = left + xi_1 * (right - left);
         }
       });
       columns.wait();
@@ -120,51 +117,55 @@ struct DeformedDiffusion {
     KOKKOS_FORCEINLINE_FUNCTION void cell_row(int i, Real xi_2) const {
       const Real* const edge = edges();
       Real* const sums = rest;
-      Real* const to = weights.east(i);
+      Real* const east = weights.east(i);
+      Real* const diagonal = weights.diagonal(i);
+      const Pitch apart = pitch;
       columns.each(0, cells_inside(), [=](int j) {
-        const Real a1 = edge[j] + xi_2 * edge[j + 2 * pitch],
-                   a2 = edge[j + pitch] + xi_2 * edge[j + 3 * pitch];
-        const Real b1 = edge[j + 4 * pitch], b2 = edge[j + 5 * pitch];
+        const Real a1 = edge[j] + xi_2 * edge[j + 2 * apart],
+                   a2 = edge[j + apart] + xi_2 * edge[j + 3 * apart];
+        const Real b1 = edge[j + 4 * apart], b2 = edge[j + 5 * apart];
         const Real det = a1 * b2 - a2 * b1;
         const Real inverse = Real(1) / det;
         const Real G11_here = (b1 * b1 + b2 * b2) * inverse;
-        to[j] = Real(0.5) * (sums[j] + G11_here);                        // east
-        to[j + 2 * pitch] = Real(-0.5) * (a1 * b1 + a2 * b2) * inverse;  // diagonal
-        sums[j] = G11_here;                                              // G11
-        sums[j + pitch] = (a1 * a1 + a2 * a2) * inverse;                 // G22
-        sums[j + 3 * pitch] = sums[j + 2 * pitch] + det;                 // J_sum
-        sums[j + 2 * pitch] = det;                                       // J
+        east[j] = Real(0.5) * (sums[j] + G11_here);
+        diagonal[j] = Real(-0.5) * (a1 * b1 + a2 * b2) * inverse;
+        sums[j] = G11_here;                               // G11
+        sums[j + apart] = (a1 * a1 + a2 * a2) * inverse;  // G22
+        sums[j + 3 * apart] = sums[j + 2 * apart] + det;  // J_sum
+        sums[j + 2 * apart] = det;                        // J
       });
     }
 
     // Above the last row.
     KOKKOS_FORCEINLINE_FUNCTION void no_cell_row(int i) const {
       Real* const sums = rest;
-      Real* const to = weights.east(i);
+      Real* const east = weights.east(i);
+      Real* const diagonal = weights.diagonal(i);
+      const Pitch apart = pitch;
       columns.each(0, cells_inside(), [=](int j) {
-        to[j] = Real(0.5) * sums[j];
-        to[j + 2 * pitch] = 0;
-        sums[j + pitch] = 0;
-        sums[j + 3 * pitch] = sums[j + 2 * pitch];
+        east[j] = Real(0.5) * sums[j];
+        diagonal[j] = 0;
+        sums[j + apart] = 0;
+        sums[j + 3 * apart] = sums[j + 2 * apart];
       });
     }
   };
 
   static constexpr int metric_arrays = 0;
-  template <int pitch>
-  static constexpr int scratch_rows(int slots) {
-    return tissue::WeightRows<Real, pitch>::rows(slots) + 10;
+  KOKKOS_FUNCTION static constexpr int scratch_entries(int slots, int pitch) {
+    return tissue::WeightRows<Real, int>::entries(slots, pitch) + 10 * pitch;
   }
-  template <int pitch, class Columns>
-  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<pitch, Columns> metric_rows(const Columns& columns, int /*m*/,
+  template <class Columns, class Pitch>
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<Columns, Pitch> metric_rows(const Columns& columns, int /*m*/,
                                                                      int origin, int width, Real* scratch,
-                                                                     int slots) const {
+                                                                     int slots, Pitch pitch) const {
     return {*this,
             columns,
             origin,
             Kokkos::min(width, grid.columns - origin),
-            {scratch, slots},
-            scratch + tissue::WeightRows<Real, pitch>::rows(slots) * pitch};
+            pitch,
+            {scratch, slots, pitch},
+            scratch + tissue::WeightRows<Real, int>::entries(slots, pitch)};
   }
 };
 
