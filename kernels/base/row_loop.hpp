@@ -42,6 +42,16 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body) {
   simd_loop(j, end, body);
 }
 
+// The same where a second body(j) does nothing new: columns that fill no line go in one that ends with the
+// last.
+template <class Real, class Body>
+inline void simd_loop_again(int begin, int end, const Body& body) {
+  if (end - begin < line_of<Real>) return simd_loop(begin, end, body);
+  int j = begin;
+  for (; j + line_of<Real> <= end; j += line_of<Real>) simd_loop(j, j + line_of<Real>, body);
+  if (j < end) simd_loop(end - line_of<Real>, end, body);
+}
+
 // A step has more streams, and more arithmetic between two lines of one, than a processor's own
 // prefetcher keeps ahead of: from memory it is half as fast without hints. hint(j) is called once a line.
 template <class Real, class Body, class Hint>
@@ -58,6 +68,7 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body, const Hint&
 // How the columns of a row are looped over:
 //   each(begin, end, body)          body(j) for begin <= j < end, iterations independent of one another
 //   each(begin, end, body, hint)    the same on fields in memory; hint(j) prefetches what column j needs
+//   each_again(begin, end, body)    the same, and twice for some columns
 //   each_of_whole_lines(end, body)  from 0 on to a multiple of a line's entries
 //   once(body)                      body() by one lane
 //   wait()                          for what others have written to the row; there are none on a host
@@ -68,6 +79,10 @@ struct HostColumns {
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body) const {
     KOKKOS_IF_ON_HOST((detail::simd_loop_by_lines<Real>(begin, end, body);))
+  }
+  template <class Body>
+  KOKKOS_FORCEINLINE_FUNCTION void each_again(int begin, int end, const Body& body) const {
+    KOKKOS_IF_ON_HOST((detail::simd_loop_again<Real>(begin, end, body);))
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each_of_whole_lines(int end, const Body& body) const {
@@ -112,6 +127,10 @@ struct TeamColumns {
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body) const {
     Kokkos::parallel_for(Kokkos::TeamVectorRange(team, begin, end), body);
+  }
+  template <class Body>
+  KOKKOS_FORCEINLINE_FUNCTION void each_again(int begin, int end, const Body& body) const {
+    each(begin, end, body);
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each_of_whole_lines(int end, const Body& body) const {

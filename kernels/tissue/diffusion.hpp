@@ -229,7 +229,7 @@ struct ConservativeDiffusion {
     KOKKOS_FORCEINLINE_FUNCTION void copy(const EnsembleField<Real, MemorySpace>& view, Real* to,
                                           int i) const {
       const Real* const from = &view(member, i + 1, origin + 1);
-      columns.each(0, inside, [=](int j) { to[j] = from[j]; });
+      columns.each_again(0, inside, [=](int j) { to[j] = from[j]; });
     }
   };
   static constexpr int metric_arrays = stencil == Stencil::nine_point ? 5 : 4;

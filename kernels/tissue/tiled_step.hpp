@@ -308,7 +308,7 @@ struct TiledStep {
                                         const Rings& rings, int i) const {
     Real* const V = rings.V(i, 0);
     const Real* const from = &sweep.from.V(tile.member, i, tile.origin);
-    columns.each(0, tile.inside, [=](int j) { V[j] = from[j]; });
+    columns.each_again(0, tile.inside, [=](int j) { V[j] = from[j]; });
     mirror_ends(columns, tile, V);
   }
 
@@ -340,9 +340,9 @@ struct TiledStep {
              update.r + owned);
     const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
     if (last)
-      columns.each(owned, tile.last_column - origin, at);
+      columns.each_again(owned, tile.last_column - origin, at);
     else if (first)
-      columns.each(0, tile.inside, at);
+      columns.each_again(0, tile.inside, at);
     else
       columns.each_of_whole_lines(tile.width, at);
     if (!last) mirror_ends(columns, tile, update.V_next);
