@@ -34,12 +34,17 @@ inline void simd_loop(int begin, int end, const Body& body) {
 }
 
 // A line at a time, of a length that the compiler knows: it makes straight code of it, with fewer addresses,
-// and nothing to find out before and after a short row.
+// and nothing to find out before and after a short row. Returns the first column that fills no line.
 template <class Real, class Body>
-inline void simd_loop_by_lines(int begin, int end, const Body& body) {
+inline int simd_lines(int begin, int end, const Body& body) {
   int j = begin;
   for (; j + line_of<Real> <= end; j += line_of<Real>) simd_loop(j, j + line_of<Real>, body);
-  simd_loop(j, end, body);
+  return j;
+}
+
+template <class Real, class Body>
+inline void simd_loop_by_lines(int begin, int end, const Body& body) {
+  simd_loop(simd_lines<Real>(begin, end, body), end, body);
 }
 
 // The same where a second body(j) does nothing new: columns that fill no line go in one that ends with the
@@ -47,9 +52,7 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body) {
 template <class Real, class Body>
 inline void simd_loop_again(int begin, int end, const Body& body) {
   if (end - begin < line_of<Real>) return simd_loop(begin, end, body);
-  int j = begin;
-  for (; j + line_of<Real> <= end; j += line_of<Real>) simd_loop(j, j + line_of<Real>, body);
-  if (j < end) simd_loop(end - line_of<Real>, end, body);
+  if (simd_lines<Real>(begin, end, body) < end) simd_loop(end - line_of<Real>, end, body);
 }
 
 // A step has more streams, and more arithmetic between two lines of one, than a processor's own
@@ -86,8 +89,7 @@ struct HostColumns {
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each_of_whole_lines(int end, const Body& body) const {
-    KOKKOS_IF_ON_HOST((for (int j = 0; j < end; j += detail::line_of<Real>)
-                           detail::simd_loop(j, j + detail::line_of<Real>, body);))
+    KOKKOS_IF_ON_HOST((detail::simd_lines<Real>(0, end, body);))
   }
   template <class Body, class Hint>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body, const Hint& hint) const {
