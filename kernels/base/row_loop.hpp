@@ -18,6 +18,14 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetch_to_write([[maybe_unused]] const void* 
   KOKKOS_IF_ON_HOST((__builtin_prefetch(address, 1);))
 }
 
+// The number itself, of which a host's compiler knows nothing more. It would carry one address after another
+// through a loop, for each expression in the loop's counter, and where they are more than there are registers
+// it is faster to make them anew.
+KOKKOS_FORCEINLINE_FUNCTION int opaque(int number) {
+  KOKKOS_IF_ON_HOST((asm("" : "+r"(number));))
+  return number;
+}
+
 namespace detail {
 
 // Bytes of one array: a line of the cache, and how much of a row runs between two rounds of hints.

@@ -180,7 +180,7 @@ struct TiledStep {
     KOKKOS_FORCEINLINE_FUNCTION Real* V(int front, int level) const {
       return V_begin + (front & (V_fronts - 1)) * array_entries<Real>(depth, pitch) + level * pitch;
     }
-    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const { return r_begin + (i & (slots - 1)) * pitch; }
+    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const { return r_begin + slot_of(i, slots) * pitch; }
     KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + array_entries<Real>(slots, pitch); }
   };
 
@@ -231,7 +231,8 @@ struct TiledStep {
     for (int front = first; front < tile.last_row + lag * depth; ++front) {
       [[maybe_unused]] const RowsToCome next = rows_to_come(tile, sweep, metric, front + 1);
       if (front < top) load(columns, tile, sweep, rings, front);
-      for (int level = 1; level <= depth; ++level) {
+      for (int n = 1; n <= depth; ++n) {
+        const int level = opaque(n);
         if constexpr (on_host) next.fetch((level - 1) * share, Kokkos::min(level * share, tile.inside));
         const int i = front - lag * level, halo = depth - level;
         if (i < Kokkos::max(0, tile.first_row - halo) || i >= Kokkos::min(rows, tile.last_row + halo))
