@@ -78,15 +78,18 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body, const Hint&
 
 // How the columns of a row are looped over:
 //   each(begin, end, body)          body(j) for begin <= j < end, iterations independent of one another
-//   each(begin, end, body, hint)    the same on fields in memory; hint(j) prefetches what column j needs
+//   each(begin, end, body, hint)    the same on fields; hint(j) prefetches what column j needs
 //   each_again(begin, end, body)    the same, and twice for some columns
 //   each_of_whole_lines(end, body)  from 0 on to a multiple of a line's entries
 //   once(body)                      body() by one lane
 //   wait()                          for what others have written to the row; there are none on a host
 //
-// By the SIMD lanes of a host's thread, on fields of Real.
+// By the SIMD lanes of a host's thread, on fields of Real. Without hints where they come from a cache: hints
+// cost loads, and those beyond a thread's own rows would take lines that another thread writes.
 template <class Real>
 struct HostColumns {
+  bool from_memory = false;
+
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body) const {
     KOKKOS_IF_ON_HOST((detail::simd_loop_by_lines<Real>(begin, end, body);))
@@ -101,7 +104,8 @@ struct HostColumns {
   }
   template <class Body, class Hint>
   KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body, const Hint& hint) const {
-    KOKKOS_IF_ON_HOST((detail::simd_loop_by_lines<Real>(begin, end, body, hint);))
+    KOKKOS_IF_ON_HOST((if (!from_memory) return each(begin, end, body);
+                       detail::simd_loop_by_lines<Real>(begin, end, body, hint);))
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void once(const Body& body) const {
@@ -145,10 +149,6 @@ struct TeamColumns {
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void each_of_whole_lines(int end, const Body& body) const {
     each(0, end, body);
-  }
-  template <class Body, class Hint>
-  KOKKOS_FORCEINLINE_FUNCTION void each(int begin, int end, const Body& body, const Hint&) const {
-    each(begin, end, body);
   }
   template <class Body>
   KOKKOS_FORCEINLINE_FUNCTION void once(const Body& body) const {

@@ -177,6 +177,30 @@ TEST_P(Step, MembersDoNotSeeOneAnother) {
   expect_members_as_alone<float>();
 }
 
+// As many members as no cache holds, which are stepped with hints to fetch, against one alone.
+template <class Real>
+void expect_from_memory_as_from_cache(Kind kind) {
+  const Sheet sheet{129, 67, 2};
+  const Member member = random_member(sheet, 51);
+  using Form = tissue::IdentityDiffusion<Real, MemorySpace>;
+  constexpr auto cached_bytes =
+      tissue::MonodomainStep<ExecutionSpace, Form, solver::Model<Real>>::cached_bytes;
+  const std::size_t members = cached_bytes / (4 * sizeof(Real) * sheet.size()) + 1;
+  const auto alone = stepped<Real>(kind, sheet, {member}).front();
+  for (const auto& state : stepped<Real>(kind, sheet, std::vector<Member>(members, member))) {
+    EXPECT_EQ(state.V, alone.V);
+    EXPECT_EQ(state.r, alone.r);
+    EXPECT_EQ(state.Ta, alone.Ta);
+  }
+}
+
+TEST(MonodomainStep, FieldsFromMemoryAreSteppedAsThoseFromACache) {
+  for (const MetricForm form : {MetricForm::none, MetricForm::conservative, MetricForm::expanded}) {
+    expect_from_memory_as_from_cache<double>({form, Scheme::euler});
+    expect_from_memory_as_from_cache<float>({form, Scheme::euler});
+  }
+}
+
 template <class Rate>
 Values rate_everywhere(const Sheet& sheet, const Rate& rate) {
   const EnsembleField<double, MemorySpace> result("rate", 1, sheet.rows, sheet.columns);
