@@ -226,7 +226,9 @@ class TiledSteps {
   double depth() const {
     using Tiled =
         tissue::TiledStep<ExecutionSpace, decltype(diffusion_), ModelOf<form, Real>, tissue::NoRecorder>;
-    return double(steps_between_solves) / tissue::tiles_of(steps_between_solves, Tiled::largest_depth());
+    const int members = static_cast<int>(old_.V.extent(0));
+    return double(steps_between_solves) /
+           Tiled::plan_sweeps(ExecutionSpace(), diffusion_.grid, members, steps_between_solves);
   }
 
   void operator()(int steps) {

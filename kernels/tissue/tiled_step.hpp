@@ -83,7 +83,8 @@ struct TiledStep {
   // holds the rows of narrower ones only.
   static constexpr bool without_metric = Diffusion::scratch_entries(1, 1) == 0;
   static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
-  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real)), deepest = 15;
+  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real));
+  static constexpr int deepest = on_host ? 20 : 15;
   // Entries from one scratch row to the next: the computed columns and a line at least, for the neighbours
   // beyond the ends of both; an odd number of lines, so that rows do not fall on one another in a cache.
   static constexpr int pitch_of(int computed) { return line * ((1 + (computed + line - 1) / line) | 1); }
@@ -116,28 +117,46 @@ struct TiledStep {
   // Eight warps go along a row of a device's tile, one column a lane; on a host a team is one thread.
   static constexpr int warps = on_host ? 1 : 8, lanes = on_host ? 1 : 32;
 
-  // The depth up to which steps gain: on a host as long as the rows on the way stay in half a MiB of cache,
-  // on a device what two teams of a multiprocessor can have.
+  // The depth up to which steps gain: on a host between 16 and 27, as long as the rows on the way stay in the
+  // MiB of an EPYC's second cache; on a device what two teams of a multiprocessor can have.
   static int largest_depth() {
-    const std::size_t room = on_host ? 512 * 1024 : Policy::scratch_size_max(scratch_level) / 2;
+    if constexpr (on_host) return deepest;
+    const std::size_t room = Policy::scratch_size_max(scratch_level) / 2;
     int depth = deepest;
     while (depth > 1 && scratch_bytes(depth, widest_pitch) > room) --depth;
     return depth;
   }
 
-  // Tiles of at most the widest, as many rows to each as keep all teams equally busy: a tile costs its rows
-  // and about depth - 1 more that belong to others.
+  // What a sweep costs besides its steps, in steps: it loads rows, and its first and last steps wait for
+  // memory. On an EPYC 1.4 from a cache and up to 5 from memory.
+  static constexpr double steps_of_loads = 3;
+
+  // Tiles of at most the widest, as many rows to each as keep all teams equally busy.
   static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
-    const int teams = Kokkos::max(1, space.concurrency() / (warps * lanes));
     const int column_tiles = tiles_of(grid.columns, widest_tile);
     const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
     TilePlan best{grid.rows, columns, depth};
     double least = 1e300;
     for (int row_tiles = 1; row_tiles == 1 || grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
-      const int rows = tiles_of(grid.rows, row_tiles);
-      const double rounds = tiles_of(members * column_tiles * row_tiles, teams);
-      const double cost = rounds * (rows + (row_tiles > 1 ? depth - 1 : 0));
-      if (cost < least) least = cost, best.rows = rows;
+      const TilePlan plan{tiles_of(grid.rows, row_tiles), columns, depth};
+      const double cost = nodes_of_a_team(space, grid, members, plan);
+      if (cost < least) least = cost, best = plan;
+    }
+    return best;
+  }
+
+  // In how many sweeps `steps` are taken soonest: fewer load less, but where many teams share a sheet most of
+  // what deep ones compute belongs to others.
+  static int plan_sweeps(const ExecutionSpace& space, const Grid& grid, int members, int steps) {
+    const int fewest = tiles_of(steps, largest_depth());
+    if constexpr (!on_host) return fewest;
+    int best = fewest;
+    double least = 1e300;
+    for (int sweeps = fewest; sweeps <= steps; sweeps *= 2) {
+      const TilePlan plan = plan_tiles(space, grid, members, tiles_of(steps, sweeps));
+      const double cost =
+          sweeps * (plan.depth + steps_of_loads) * nodes_of_a_team(space, grid, members, plan);
+      if (cost < least) least = cost, best = sweeps;
     }
     return best;
   }
@@ -219,6 +238,17 @@ struct TiledStep {
   }
 
  private:
+  // Nodes that the busiest team computes in a step, with those of its neighbours: half of `depth` rows on the
+  // average, and `depth` columns.
+  static double nodes_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
+                                const TilePlan& plan) {
+    const int teams = Kokkos::max(1, space.concurrency() / (warps * lanes));
+    const int row_tiles = tiles_of(grid.rows, plan.rows), column_tiles = tiles_of(grid.columns, plan.columns);
+    return static_cast<double>(tiles_of(members * row_tiles * column_tiles, teams)) *
+           (plan.rows + (row_tiles > 1 ? plan.depth - 1 : 0)) *
+           (plan.columns + (column_tiles > 1 ? 2 * plan.depth : 0));
+  }
+
   template <class Metric>
   KOKKOS_FORCEINLINE_FUNCTION void go_up(const TeamMember& team, const Tile& tile, const Rings& rings,
                                          const Metric& metric, const Sweep& sweep) const {
@@ -368,7 +398,7 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
                  [[maybe_unused]] ActiveBox<typename Diffusion::Scalar>* active = nullptr) {
   using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
   const int members = static_cast<int>(state.V.extent(0));
-  const int sweeps = tiles_of(steps, Step::largest_depth());
+  const int sweeps = Step::plan_sweeps(space, diffusion.grid, members, steps);
   for (int n = 0, done = 0; n < sweeps;) {
     const int depth = (steps - done) / (sweeps - n);
     NodeBox box = whole(diffusion.grid);

@@ -194,7 +194,7 @@ std::string name_of(const ::testing::TestParamInfo<std::tuple<int, int>>& test) 
 
 INSTANTIATE_TEST_SUITE_P(TiledStep, TiledStep,
                          ::testing::Combine(::testing::Range(0, static_cast<int>(tilings.size())),
-                                            ::testing::Values(1, 2, 3, 7, 15)),
+                                            ::testing::Values(1, 2, 3, 7, 20)),
                          name_of);
 
 const Sheet sheet{71, 91, 10};
@@ -279,8 +279,10 @@ TEST(TiledSteps, PlansCoverTheSheetAndKeepTeamsBusy) {
     const int tiles = tissue::tiles_of(n, plan.rows) * tissue::tiles_of(n, plan.columns);
     EXPECT_GE(tiles, n >= 16 * teams ? teams : 1);
   }
-  // Many members are parallel enough: no rows are computed twice.
+  // Many members are parallel enough: no rows are computed twice, and no more sweeps than needed.
   EXPECT_EQ(Step::plan_tiles(space, {121, 121, 0.6}, 64 * teams, 8).rows, 121);
+  EXPECT_EQ(Step::plan_sweeps(space, {121, 121, 0.6}, 64 * teams, 80),
+            tissue::tiles_of(80, Step::largest_depth()));
 }
 
 // At rest but for V = 0.5 on a few nodes of each member: in a corner, or in the inside.
