@@ -121,9 +121,9 @@ struct TiledStep {
   // MiB of an EPYC's second cache; on a device what two teams of a multiprocessor can have.
   static int largest_depth() {
     if constexpr (on_host) return deepest;
-    const std::size_t room = Policy::scratch_size_max(scratch_level) / 2;
+    const std::size_t most = Policy::scratch_size_max(scratch_level) / 2;
     int depth = deepest;
-    while (depth > 1 && scratch_bytes(depth, widest_pitch) > room) --depth;
+    while (depth > 1 && scratch_bytes(depth, widest_pitch) > most) --depth;
     return depth;
   }
 
@@ -178,7 +178,7 @@ struct TiledStep {
     const TiledStep step{diffusion, model,     Real(dt),  plan,       row_tiles, column_tiles,
                          pitch,     old_state, new_state, first_step, record};
     Policy policy(space, members * row_tiles * column_tiles, warps, lanes);
-    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(scratch_bytes(plan.depth, pitch)));
+    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(room(diffusion.grid, plan.depth)));
     Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
 
@@ -238,6 +238,13 @@ struct TiledStep {
   }
 
  private:
+  // Scratch memory of a team: on a host for any plan, so that later ones do not allocate; on a device, where
+  // it is scarce, for this depth.
+  static std::size_t room(const Grid& grid, int depth) {
+    if constexpr (!on_host) return scratch_bytes(depth, widest_pitch);
+    return scratch_bytes(deepest, pitch_of(Kokkos::min(grid.columns, most_computed(widest_tile, deepest))));
+  }
+
   // Nodes that the busiest team computes in a step, with those of its neighbours: half of `depth` rows on the
   // average, and `depth` columns.
   static double nodes_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,

