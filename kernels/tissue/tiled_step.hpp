@@ -376,7 +376,8 @@ struct TiledStep {
     if (i >= tile.first_row && i < tile.last_row)
       record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column, here + owned,
              update.r + owned);
-    const auto at = [=](int j) { update(j, row(j - 1, j, j + 1)); };
+    // By reference: a copy of so many pointers would go through the stack, in each level anew.
+    const auto at = [&](int j) { update(j, row(j - 1, j, j + 1)); };
     if (last)
       columns.each_again(owned, tile.last_column - origin, at);
     else if (first)
