@@ -111,7 +111,8 @@ Recording record(const Action& action) {
   return result;
 }
 
-constexpr int interval = 40;
+// Odd: a tile that is a whole sheet takes its sweeps in one launch only where they are equally deep.
+constexpr int interval = 39;
 
 // Four probes and, for the first t.u., a stimulus.
 solver::Scene contracting_front(solver::MetricForm metric) {
@@ -181,7 +182,7 @@ TYPED_TEST(DataMovement, StepsAllocateCopyAndWaitForNothing) {
       sheet.solve();
       const Recording few = sheet.advance(fewer_steps), many = sheet.advance(more_steps);
       EXPECT_GE(few.kernels.size(), 1U);
-      EXPECT_GE(many.kernels.size(), few.kernels.size());  // a tile that is a sheet takes all in one launch
+      EXPECT_GT(many.kernels.size(), few.kernels.size());
       EXPECT_THAT(few.allocations, IsEmpty());
       EXPECT_THAT(many.allocations, IsEmpty());
       EXPECT_EQ(waits(many), waits(few));
