@@ -135,11 +135,14 @@ struct TiledStep {
   static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
     const int column_tiles = tiles_of(grid.columns, widest_tile);
     const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
+    const double strips = static_cast<double>(members) * column_tiles;
     TilePlan best{grid.rows, columns, depth};
-    double least = 1e300;
-    for (int row_tiles = 1; row_tiles == 1 || grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
+    double least = rows_of_a_team(space, grid, members, best);
+    for (int row_tiles = 2; grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
+      // More tiles compute more rows twice: from here on no plan is better, were it never so even.
+      if (strips * (grid.rows + row_tiles * (depth - 1)) >= least * teams_of(space)) break;
       const TilePlan plan{tiles_of(grid.rows, row_tiles), columns, depth};
-      const double cost = nodes_of_a_team(space, grid, members, plan);
+      const double cost = rows_of_a_team(space, grid, members, plan);
       if (cost < least) least = cost, best = plan;
     }
     return best;
@@ -154,8 +157,9 @@ struct TiledStep {
     double least = 1e300;
     for (int sweeps = fewest; sweeps <= steps; sweeps *= 2) {
       const TilePlan plan = plan_tiles(space, grid, members, tiles_of(steps, sweeps));
+      const int columns = plan.columns + (plan.columns < grid.columns ? 2 * plan.depth : 0);
       const double cost =
-          sweeps * (plan.depth + steps_of_loads) * nodes_of_a_team(space, grid, members, plan);
+          sweeps * (plan.depth + steps_of_loads) * columns * rows_of_a_team(space, grid, members, plan);
       if (cost < least) least = cost, best = sweeps;
     }
     return best;
@@ -163,7 +167,8 @@ struct TiledStep {
 
   // Launches plan.sweeps times plan.depth steps, numbered from first_step on for
   // record(columns, m, i, step, begin, end, V, r), which sees the owned columns of row i before each step.
-  // No fence. plan.columns is a multiple of a line's entries, or all columns.
+  // No fence. plan.columns is a multiple of a line's entries, or all columns, and no more than the widest
+  // tile's; plan.depth is at most the deepest.
   static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                      TilePlan plan, const ExcitationFields<View>& old_state,
                      const ExcitationFields<View>& new_state, int first_step = 0,
@@ -172,13 +177,14 @@ struct TiledStep {
     if (plan.box.rows() == 0) plan.box = whole(diffusion.grid);
     const int row_tiles = tiles_of(plan.box.rows(), plan.rows),
               column_tiles = tiles_of(plan.box.columns(), plan.columns);
-    Pitch pitch{};
-    if constexpr (on_host)
-      pitch = pitch_of(Kokkos::min(diffusion.grid.columns, most_computed(plan.columns, plan.depth)));
+    const Pitch pitch = pitch_in(diffusion.grid, plan.columns, plan.depth);
     const TiledStep step{diffusion, model,     Real(dt),  plan,       row_tiles, column_tiles,
                          pitch,     old_state, new_state, first_step, record};
     Policy policy(space, members * row_tiles * column_tiles, warps, lanes);
-    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(room(diffusion.grid, plan.depth)));
+    // On a host as much for any plan, so that later ones do not allocate; on a device it is scarce.
+    const std::size_t room = on_host ? scratch_bytes(deepest, pitch_in(diffusion.grid, widest_tile, deepest))
+                                     : scratch_bytes(plan.depth, pitch);
+    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(room));
     Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
 
@@ -238,22 +244,26 @@ struct TiledStep {
   }
 
  private:
-  // Scratch memory of a team: on a host for any plan, so that later ones do not allocate; on a device, where
-  // it is scarce, for this depth.
-  static std::size_t room(const Grid& grid, int depth) {
-    if constexpr (!on_host) return scratch_bytes(depth, widest_pitch);
-    return scratch_bytes(deepest, pitch_of(Kokkos::min(grid.columns, most_computed(widest_tile, deepest))));
+  // From one scratch row to the next, in tiles of `columns` owned columns.
+  static Pitch pitch_in([[maybe_unused]] const Grid& grid, [[maybe_unused]] int columns,
+                        [[maybe_unused]] int depth) {
+    if constexpr (on_host)
+      return pitch_of(Kokkos::min(grid.columns, most_computed(columns, depth)));
+    else
+      return {};
   }
 
-  // Nodes that the busiest team computes in a step, with those of its neighbours: half of `depth` rows on the
-  // average, and `depth` columns.
-  static double nodes_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
-                                const TilePlan& plan) {
-    const int teams = Kokkos::max(1, space.concurrency() / (warps * lanes));
+  static int teams_of(const ExecutionSpace& space) {
+    return Kokkos::max(1, space.concurrency() / (warps * lanes));
+  }
+
+  // Rows of tiles that the busiest team computes in a step; of its neighbours' half of `depth` at each end,
+  // on the average.
+  static double rows_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
+                               const TilePlan& plan) {
     const int row_tiles = tiles_of(grid.rows, plan.rows), column_tiles = tiles_of(grid.columns, plan.columns);
-    return static_cast<double>(tiles_of(members * row_tiles * column_tiles, teams)) *
-           (plan.rows + (row_tiles > 1 ? plan.depth - 1 : 0)) *
-           (plan.columns + (column_tiles > 1 ? 2 * plan.depth : 0));
+    return static_cast<double>(tiles_of(members * row_tiles * column_tiles, teams_of(space))) *
+           (plan.rows + (row_tiles > 1 ? plan.depth - 1 : 0));
   }
 
   template <class Metric>
