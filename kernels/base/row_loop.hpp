@@ -56,11 +56,11 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body) {
 }
 
 // The same where a second body(j) does nothing new: columns that fill no line go in one that ends with the
-// last.
+// last. Where that begins is kept from the compiler: of a single line it would make scalar code.
 template <class Real, class Body>
 inline void simd_loop_again(int begin, int end, const Body& body) {
   if (end - begin < line_of<Real>) return simd_loop(begin, end, body);
-  if (simd_lines<Real>(begin, end, body) < end) simd_loop(end - line_of<Real>, end, body);
+  if (simd_lines<Real>(begin, end, body) < end) simd_lines<Real>(opaque(end - line_of<Real>), end, body);
 }
 
 // A step has more streams, and more arithmetic between two lines of one, than a processor's own
