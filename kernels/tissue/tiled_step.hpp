@@ -285,7 +285,10 @@ struct TiledStep {
         if (i < Kokkos::max(0, tile.first_row - halo) || i >= Kokkos::min(rows, tile.last_row + halo))
           continue;
         if (level == 1) metric.prepare(i);
-        advance(columns, tile, sweep, rings, metric, front, level);
+        if (on_host && level > 1 && level < depth)
+          advance<true>(columns, tile, sweep, rings, metric, front, level);
+        else
+          advance<false>(columns, tile, sweep, rings, metric, front, level);
       }
       team.team_barrier();
     }
@@ -360,7 +363,9 @@ struct TiledStep {
     mirror_ends(columns, tile, V);
   }
 
-  template <class Metric>
+  // Most levels go from scratch rows to scratch rows; where that is known beforehand, a host's short rows
+  // have less to decide in front of them.
+  template <bool between_scratch_rows, class Metric>
   KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Sweep& sweep,
                                            const Rings& rings, const Metric& metric, int front,
                                            int level) const {
@@ -374,7 +379,8 @@ struct TiledStep {
       if (i == diffusion.grid.rows - 1) above = below;
     }
     const auto row = metric.row({below, here, above}, i);
-    const bool first = level == 1, last = level == plan.depth;
+    const bool first = !between_scratch_rows && level == 1,
+               last = !between_scratch_rows && level == plan.depth;
     const NodeUpdate<Model> update{model,
                                    dt,
                                    here,
