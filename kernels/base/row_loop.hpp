@@ -35,8 +35,10 @@ inline constexpr int line_of = line_bytes / static_cast<int>(sizeof(Real));
 template <class Real>
 inline constexpr int block_of = block_bytes / static_cast<int>(sizeof(Real));
 
+// Inlined by force, with the body: a clone of it elsewhere would take what it refers to from memory, where
+// each short row would have to put it.
 template <class Body>
-inline void simd_loop(int begin, int end, const Body& body) {
+[[gnu::always_inline]] inline void simd_loop(int begin, int end, const Body& body) {
 #pragma omp simd
   for (int j = begin; j < end; ++j) body(j);
 }
@@ -44,7 +46,7 @@ inline void simd_loop(int begin, int end, const Body& body) {
 // A line at a time, of a length that the compiler knows: it makes straight code of it, with fewer addresses,
 // and nothing to find out before and after a short row. Returns the first column that fills no line.
 template <class Real, class Body>
-inline int simd_lines(int begin, int end, const Body& body) {
+[[gnu::always_inline]] inline int simd_lines(int begin, int end, const Body& body) {
   int j = begin;
   for (; j + line_of<Real> <= end; j += line_of<Real>) simd_loop(j, j + line_of<Real>, body);
   return j;
@@ -58,8 +60,11 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body) {
 // The same where a second body(j) does nothing new: columns that fill no line go in one that ends with the
 // last. Where that begins is kept from the compiler: of a single line it would make scalar code.
 template <class Real, class Body>
-inline void simd_loop_again(int begin, int end, const Body& body) {
-  if (end - begin < line_of<Real>) return simd_loop(begin, end, body);
+[[gnu::always_inline]] inline void simd_loop_again(int begin, int end, const Body& body) {
+  if (end - begin < line_of<Real>) {  // rare, so in as little code as will do
+    for (int j = begin; j < end; ++j) body(opaque(j));
+    return;
+  }
   if (simd_lines<Real>(begin, end, body) < end) simd_lines<Real>(opaque(end - line_of<Real>), end, body);
 }
 

@@ -392,8 +392,7 @@ struct TiledStep {
     if (i >= tile.first_row && i < tile.last_row)
       record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column, here + owned,
              update.r + owned);
-    // By reference: a copy of so many pointers would go through the stack, in each level anew.
-    const auto at = [&](int j) { update(j, row(j - 1, j, j + 1)); };
+    const AdvanceColumn<std::decay_t<decltype(row)>> at{update, row};
     if (last)
       columns.each_again(owned, tile.last_column - origin, at);
     else if (first)
@@ -402,6 +401,14 @@ struct TiledStep {
       columns.each_of_whole_lines(tile.width, at);
     if (!last) mirror_ends(columns, tile, update.V_next);
   }
+
+  // By reference: a copy of so many pointers would go through the stack, in each level anew.
+  template <class Row>
+  struct AdvanceColumn {
+    const NodeUpdate<Model>& update;
+    const Row& row;
+    KOKKOS_FORCEINLINE_FUNCTION void operator()(int j) const { update(j, row(j - 1, j, j + 1)); }
+  };
 
   KOKKOS_FORCEINLINE_FUNCTION static Real* tension(bool in_memory, const View& Ta, const Rings& rings, int m,
                                                    int i, int origin) {
