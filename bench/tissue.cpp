@@ -13,21 +13,12 @@
 #include "bench/suite.hpp"
 #include "kernels/tissue/tiled_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
-#include "kernels/transfer/metric_rows.hpp"
 #include "tests/support/reference_excitation.hpp"
 
 namespace myowave::bench {
 namespace {
 
-enum class Form {
-  identity,
-  conservative,
-  conservative_loaded,
-  conservative_resident,
-  expanded,
-  identity_split,
-  conservative_split
-};
+enum class Form { identity, conservative_loaded, expanded, identity_split, conservative_split };
 
 template <Form form>
 inline constexpr bool is_split = form == Form::identity_split || form == Form::conservative_split;
@@ -37,13 +28,11 @@ template <Form form, class Real>
 using ModelOf = solver::Model<Real, SchemeOf<form>>;
 
 constexpr const char* name_of(Form form) {
-  return form == Form::identity                ? "identity"
-         : form == Form::conservative          ? "conservative"
-         : form == Form::conservative_resident ? "conservative_resident"
-         : form == Form::expanded              ? "expanded"
-         : form == Form::identity_split        ? "identity_split"
-         : form == Form::conservative_split    ? "conservative_split"
-                                               : "conservative_loaded";
+  return form == Form::identity             ? "identity"
+         : form == Form::expanded           ? "expanded"
+         : form == Form::identity_split     ? "identity_split"
+         : form == Form::conservative_split ? "conservative_split"
+                                            : "conservative_loaded";
 }
 
 template <class Real>
@@ -55,13 +44,10 @@ constexpr Traffic traffic_of(Form form) {
 
 template <class Real>
 constexpr Traffic tiled_traffic_of(Form form, double depth) {
-  return form == Form::identity ? tiled_traffic<Real>(0, identity_flops, depth)
-         : form == Form::conservative
-             ? tiled_traffic<Real>(0, conservative_flops + metric_from_nodes_flops / depth, depth)
-         : form == Form::conservative_resident ? tiled_traffic<Real>(0, conservative_flops, depth)
-         : form == Form::identity_split        ? tiled_traffic<Real>(0, identity_split_flops, depth)
-         : form == Form::conservative_split    ? tiled_traffic<Real>(5, conservative_split_flops, depth)
-                                               : tiled_traffic<Real>(4, conservative_flops, depth);
+  return form == Form::identity             ? tiled_traffic<Real>(0, identity_flops, depth)
+         : form == Form::identity_split     ? tiled_traffic<Real>(0, identity_split_flops, depth)
+         : form == Form::conservative_split ? tiled_traffic<Real>(5, conservative_split_flops, depth)
+                                            : tiled_traffic<Real>(4, conservative_flops, depth);
 }
 
 template <class Real>
@@ -78,11 +64,10 @@ using HostState = reference::ExcitationState;
 // A metric that the deformed sheet gives to all members.
 template <template <class, class> class Diffusion, template <class, class> class Metric,
           template <class, class> class Transfer, class Real>
-Diffusion<Real, MemorySpace> deformed(
-    int n, int members, std::vector<double> (*positions)(const elastic::ElementGrid&) = deformed_nodes) {
+Diffusion<Real, MemorySpace> deformed(int n, int members) {
   const auto grid = square_grid(n);
   const auto elements = square_elements(n);
-  const auto nodes = to_nodes(positions(elements));
+  const auto nodes = to_nodes(deformed_nodes(elements));
   const Metric<Real, MemorySpace> metric(members, grid);
   const Transfer<ExecutionSpace, Real> transfer(grid, elements, cells_per_element);
   for (int m = 0; m < members; ++m) transfer.refresh(ExecutionSpace(), nodes, metric, m);
@@ -103,57 +88,10 @@ using NinePointMetric = tissue::ConservativeMetric<Real, Space, tissue::Stencil:
 template <class Space, class Real>
 using NinePointTransfer = transfer::ConservativeTransfer<Space, Real, tissue::Stencil::nine_point>;
 
-// Element nodes of a sheet that is stretched and sheared alike everywhere.
-std::vector<double> affine_nodes(const elastic::ElementGrid& grid) {
-  std::vector<double> x;
-  for (int I = 0; I <= grid.rows; ++I)
-    for (int J = 0; J <= grid.columns; ++J) {
-      const double X1 = J * grid.h, X2 = I * grid.h;
-      x.push_back(1.1 * X1 + 0.1 * X2);
-      x.push_back(0.9 * X2 - 0.05 * X1);
-    }
-  return x;
-}
-
-// The loaded weights of an affine sheet in tiles. All rows have the same, those at its edges apart, so that a
-// tile loads some and then finds them in the cache: what a metric from the nodes comes to if it costs
-// nothing.
-template <class Real>
-struct ResidentDiffusion : FivePointDiffusion<Real, MemorySpace> {
-  using Loaded = FivePointDiffusion<Real, MemorySpace>;
-
-  template <class Columns, class Pitch>
-  struct RowsOfTile : Loaded::template RowsOfTile<Columns, Pitch> {
-    using LoadedRows = typename Loaded::template RowsOfTile<Columns, Pitch>;
-    KOKKOS_FORCEINLINE_FUNCTION void rows_in_memory(int i, const Real** rows) const {
-      for (int k = 0; k < Loaded::metric_arrays; ++k) rows[k] = this->weights.east(i);
-    }
-    KOKKOS_FORCEINLINE_FUNCTION void begin(int i) const {
-      for (int k = 0; k < this->weights.slots; ++k) LoadedRows::prepare(i - 1 + k);
-    }
-    KOKKOS_FORCEINLINE_FUNCTION void prepare(int i) const {
-      const int near_edge = 2 * this->weights.slots, rows = static_cast<int>(this->metric.east.extent(1)) - 1;
-      if (i < near_edge || i >= rows - near_edge) LoadedRows::prepare(i);
-    }
-  };
-  template <class Columns, class Pitch>
-  KOKKOS_FORCEINLINE_FUNCTION RowsOfTile<Columns, Pitch> metric_rows(const Columns& columns, int m,
-                                                                     int origin, int width, Real* scratch,
-                                                                     int slots, Pitch pitch) const {
-    return {Loaded::metric_rows(columns, m, origin, width, scratch, slots, pitch)};
-  }
-};
-
 template <Form form, class Real>
 auto make_diffusion(int n, int members) {
   if constexpr (form == Form::identity)
     return tissue::IdentityDiffusion<Real, MemorySpace>(square_grid(n));
-  else if constexpr (form == Form::conservative)
-    return transfer::DeformedDiffusion<Real, MemorySpace>{
-        square_grid(n), square_elements(n), cells_per_element, to_nodes(deformed_nodes(square_elements(n)))};
-  else if constexpr (form == Form::conservative_resident)
-    return ResidentDiffusion<Real>{
-        deformed<FivePointDiffusion, FivePointMetric, FivePointTransfer, Real>(n, members, affine_nodes)};
   else if constexpr (form == Form::identity_split)
     return tissue::IdentityDiffusion<Real, MemorySpace, tissue::Stencil::nine_point>(square_grid(n));
   else if constexpr (form == Form::conservative_split)
@@ -379,15 +317,12 @@ void time_tiled(benchmark::State& state, const Suite& suite, int n, int members)
   const double seconds = measure(state, batch_of(nodes), [&] { steps(steps_between_solves); });
   report_steps<Real>(state, suite, seconds, nodes, tiled_traffic_of<Real>(form, steps.depth()));
 
-  // The same bits as single steps, where the metric comes from the same numbers.
-  constexpr bool from_nodes = form == Form::conservative,
-                 same = !from_nodes && form != Form::conservative_resident;
-  constexpr double tolerance = same ? 0 : sizeof(Real) == sizeof(double) ? 1e-12 : 2e-5;
+  // The same bits as single steps.
   TiledSteps<form, Real> tiled(n, members);
-  Step<from_nodes ? Form::conservative_loaded : form, Real> single(n, members);
+  Step<form, Real> single(n, members);
   tiled(checked_tiled_steps);
   for (int step = 0; step < checked_tiled_steps; ++step) single();
-  const std::string wrong = difference(tiled.state(), single.state(), tolerance);
+  const std::string wrong = difference(tiled.state(), single.state(), 0);
   if (!wrong.empty()) fail(state, wrong);
 }
 
@@ -409,9 +344,7 @@ void register_rows(const Suite& suite) {
     return fmt::format("{}/{}/{}/{}", kind, name_of(form), precision_name<Real>, n);
   };
   constexpr bool has_yardstick = form == Form::identity || form == Form::conservative_loaded;
-  constexpr bool single =
-                     form != Form::conservative && form != Form::conservative_resident && !is_split<form>,
-                 tiled = form != Form::expanded;
+  constexpr bool single = !is_split<form>, tiled = form != Form::expanded;
   const auto sizes = form == Form::identity ? suite.sizes({121, 251, 512, 1024, 2048, 4096}, small_n)
                                             : suite.sizes({121, 251, 511, 1021, 2041, 4091}, small_n);
   for (const int n : sizes) {
@@ -437,9 +370,7 @@ void register_rows(const Suite& suite) {
 template <class Real>
 void register_forms(const Suite& suite) {
   register_rows<Form::identity, Real>(suite);
-  register_rows<Form::conservative, Real>(suite);
   register_rows<Form::conservative_loaded, Real>(suite);
-  register_rows<Form::conservative_resident, Real>(suite);
   register_rows<Form::expanded, Real>(suite);
   register_rows<Form::identity_split, Real>(suite);
   register_rows<Form::conservative_split, Real>(suite);

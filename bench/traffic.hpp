@@ -25,7 +25,6 @@ inline constexpr double conservative_flops = reaction_flops + 24;
 inline constexpr double split_reaction_flops = 52;
 inline constexpr double identity_split_flops = split_reaction_flops + 11;
 inline constexpr double conservative_split_flops = split_reaction_flops + 24;
-inline constexpr double metric_from_nodes_flops = 30;
 inline constexpr double expanded_flops = reaction_flops + 26;
 
 // V read, V_next written, r and Ta in place, and `coefficients` arrays.

@@ -351,13 +351,11 @@ void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, d
       [&](const auto& form) {
         using Form = std::decay_t<decltype(form)>;
         if constexpr (decltype(Form::diffusion)::mirrored_edges)
-          with_fastest_metric<ExecutionSpace>(form, nodes_.device, [&](const auto& diffusion) {
-            with_model<typename Form::Scheme>(scene_, model_, [&](const auto& model) {
-              const observe::ProbeRecorder<std::decay_t<decltype(model)>, Space> record{
-                  probe_nodes_, probe_record_.device, {model, Real(dt)}, grid_.columns, probe_rows_};
-              tissue::tiled_steps(space_, diffusion, model, dt, count, state_, spare_, first, record,
-                                  &active_);
-            });
+          with_model<typename Form::Scheme>(scene_, model_, [&](const auto& model) {
+            const observe::ProbeRecorder<std::decay_t<decltype(model)>, Space> record{
+                probe_nodes_, probe_record_.device, {model, Real(dt)}, grid_.columns, probe_rows_};
+            tissue::tiled_steps(space_, form.diffusion, model, dt, count, state_, spare_, first, record,
+                                &active_);
           });
       },
       form_);

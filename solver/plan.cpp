@@ -94,10 +94,7 @@ PlannedPart diffusion(const Scene& scene, const Sizes& sizes) {
       part.what = fmt::format("{}-point stencil of the undeformed sheet", split ? 9 : 5);
       break;
     case MetricForm::conservative:
-      part.what = fmt::format("conservative form on the deformed metric, {}",
-                              !split && takes_metric_from_nodes<Space>(scene.grid.rows, scene.grid.columns)
-                                  ? "weights from the element nodes, or 4 a node in single steps"
-                                  : fmt::format("{} weights a node", weights));
+      part.what = fmt::format("conservative form on the deformed metric, {} weights a node", weights);
       part.device_bytes = weights * sizes.padded_nodes * sizes.real;
       break;
     case MetricForm::expanded:

@@ -2,7 +2,6 @@
 // the variants that are instantiated, tested and benchmarked.
 #pragma once
 
-#include <cstdint>
 #include <type_traits>
 #include <variant>
 
@@ -11,7 +10,6 @@
 #include "kernels/tissue/monodomain_step.hpp"
 #include "kernels/tissue/tiled_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
-#include "kernels/transfer/metric_rows.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::solver {
@@ -41,7 +39,6 @@ struct ModelForms {
     using Scheme = tissue::ForwardEuler;
     tissue::ConservativeDiffusion<Real, Space> diffusion;
     transfer::ConservativeTransfer<ExecutionSpace, Real> transfer;
-    transfer::DeformedDiffusion<Real, Space> from_nodes;  // of large sheets; without the nodes
   };
   struct ConservativeSplit {
     using Scheme = tissue::SplitStep;
@@ -75,8 +72,7 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
             {grid, tissue::ConservativeMetric<Real, Space, stencil_of<tissue::SplitStep>>(1, grid)},
             {grid, elements, cells_per_element}};
       return typename Forms::Conservative{{grid, tissue::ConservativeMetric<Real, Space>(1, grid)},
-                                          {grid, elements, cells_per_element},
-                                          {grid, elements, cells_per_element, {}}};
+                                          {grid, elements, cells_per_element}};
     case MetricForm::expanded:
       return typename Forms::Expanded{{grid, tissue::ExpandedMetric<Real, Space>(1, grid)},
                                       {grid, elements, cells_per_element}};
@@ -85,28 +81,6 @@ typename ModelForms<ExecutionSpace, Real>::Any select_form(MetricForm form, cons
   }
   if (scheme == Scheme::split) return identity(tissue::SplitStep{});
   return identity(tissue::ForwardEuler{});
-}
-
-// From so many nodes on, several steps in one launch are faster on a host with the metric from the element
-// nodes, to rounding the same, than with its arrays, which no cache holds then (bench/README.md).
-inline constexpr std::int64_t nodes_of_large_sheet = 5'000'000;
-
-template <class ExecutionSpace>
-constexpr bool takes_metric_from_nodes(std::int64_t rows, std::int64_t columns) {
-  return runs_on_host<ExecutionSpace> && rows * columns >= nodes_of_large_sheet;
-}
-
-// action(diffusion) with the diffusion of a form that several steps in one launch take.
-template <class ExecutionSpace, class Form, class NodesView, class Action>
-void with_fastest_metric(const Form& form, const NodesView& nodes, const Action& action) {
-  if constexpr (runs_on_host<ExecutionSpace> && requires { form.from_nodes; }) {
-    if (takes_metric_from_nodes<ExecutionSpace>(form.diffusion.grid.rows, form.diffusion.grid.columns)) {
-      auto diffusion = form.from_nodes;
-      diffusion.nodes = nodes;
-      return action(diffusion);
-    }
-  }
-  action(form.diffusion);
 }
 
 template <class Real>

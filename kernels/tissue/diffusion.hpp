@@ -6,9 +6,9 @@
 //   mirrored_edges           whether row() holds at the edges too, on mirrored neighbours
 //   mirrors                  whether they count there: in a network of edges those outside weigh nothing, and
 //                            what lies at their ends need only be finite
-//   metric_rows(...)         row() for a team that goes up the rows; a form that does not load its metric
-//                            prepares it there, in scratch_entries(slots, pitch) of scratch memory; its
-//                            rows_in_memory(i, rows) are those that row i takes from metric_arrays arrays
+//   metric_rows(...)         row() for a team that goes up the rows; it copies its weights to
+//                            scratch_entries(slots, pitch) of scratch memory; its rows_in_memory(i, rows) are
+//                            those that row i takes from metric_arrays arrays
 #pragma once
 
 #include "kernels/base/row_loop.hpp"

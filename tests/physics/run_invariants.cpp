@@ -84,20 +84,6 @@ TEST(RunInvariants, ObservationDoesNotChangeTheRun) {
   EXPECT_EQ(seldom.summary.mechanics.solves, often.summary.mechanics.solves);
 }
 
-// On a large sheet several steps take the metric from the element nodes, a step with a stimulus its arrays.
-TEST(RunInvariants, BothSourcesOfTheMetricOfALargeSheetAgree) {
-  Scene scene = spiral(2241);
-  ASSERT_GE(scene.grid.rows * scene.grid.columns, solver::nodes_of_large_sheet);
-  scene.time.t_end = 0.4;
-  scene.mechanics.emplace();
-  scene.mechanics->interval = 10;
-  const test::RecordedRun from_nodes = test::recorded_run(scene);
-  scene.stimuli.push_back({.duration = 1, .amplitude = 0});
-  const test::RecordedRun loaded = test::recorded_run(scene);
-  EXPECT_TRUE(all_close(from_nodes.state.V, loaded.state.V, 2241, {.absolute = 1e-12}));
-  EXPECT_TRUE(all_close(from_nodes.state.r, loaded.state.r, 2241, {.absolute = 1e-12}));
-}
-
 TEST(RunInvariants, Float32FollowsFloat64) {
   Scene scene = spiral(61);
   scene.time.t_end = 50;

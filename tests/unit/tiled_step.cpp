@@ -14,7 +14,6 @@
 #include "kernels/observe/probes.hpp"
 #include "kernels/tissue/monodomain_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
-#include "kernels/transfer/metric_rows.hpp"
 #include "solver/denormals.hpp"
 #include "solver/select_model.hpp"
 #include "tests/support/allclose.hpp"
@@ -60,11 +59,6 @@ tissue::ConservativeDiffusion<Real, MemorySpace, stencil> loaded(const Sheet& sh
   for (int m = 0; m < members; ++m)
     transfer.refresh(ExecutionSpace(), test::to_nodes(test::crumpled(sheet.mesh(), 7)), metric, m);
   return {sheet.grid(), metric};
-}
-
-template <class Real>
-transfer::DeformedDiffusion<Real, MemorySpace> from_nodes(const Sheet& sheet) {
-  return {sheet.grid(), sheet.elements(), sheet.cells, test::to_nodes(test::crumpled(sheet.mesh(), 7))};
 }
 
 template <class Real, class Scheme>
@@ -156,34 +150,14 @@ TEST_P(TiledStep, SplitStepsAreSingleOnesToTheBit) {
   expect_single_split_steps<float>();
 }
 
-TEST_P(TiledStep, MetricFromNodesIsTheLoadedOneToRounding) {
-  const auto expected = single_steps<double>(sheet, loaded<double>(sheet), depth);
-  expect_equal(one_launch<double>(sheet, from_nodes<double>(sheet), plan), expected, sheet.columns,
-               {.absolute = 1e-12});
-  const auto expected32 = single_steps<float>(sheet, loaded<float>(sheet), depth);
-  expect_equal(one_launch<float>(sheet, from_nodes<float>(sheet), plan), expected32, sheet.columns,
-               {.absolute = 2e-4});
-}
-
-// The number of threads chooses the tiles.
-TEST_P(TiledStep, MetricFromNodesDoesNotDependOnTiles) {
-  const int widest = std::min(sheet.columns, 256);
-  const auto expect_same_bits = [&]<class Real>(Real) {
-    const auto diffusion = from_nodes<Real>(sheet);
-    expect_equal(one_launch<Real>(sheet, diffusion, plan),
-                 one_launch<Real>(sheet, diffusion, {sheet.rows, widest, depth}), sheet.columns);
-  };
-  expect_same_bits(double{});
-  expect_same_bits(float{});
-}
-
 // The rows on the way and their order are then those of a device.
 TEST_P(TiledStep, ADevicesLagIsSingleStepsToTheBit) {
   const auto conservative = loaded<double>(sheet);
   expect_equal(one_launch<double, 2>(sheet, conservative, plan),
                single_steps<double>(sheet, conservative, depth), sheet.columns);
-  expect_equal(one_launch<float, 2>(sheet, from_nodes<float>(sheet), plan),
-               one_launch<float>(sheet, from_nodes<float>(sheet), plan), sheet.columns);
+  const auto conservative32 = loaded<float>(sheet);
+  expect_equal(one_launch<float, 2>(sheet, conservative32, plan),
+               single_steps<float>(sheet, conservative32, depth), sheet.columns);
 }
 
 std::string name_of(const ::testing::TestParamInfo<std::tuple<int, int>>& test) {
@@ -211,20 +185,16 @@ TEST(TiledSteps, AnyNumberOfStepsInEqualLaunches) {
 
 // The members of an ensemble take several sweeps in one launch, to and fro.
 TEST(TiledSteps, SweepsOverWholeSheetsAreSingleSteps) {
+  constexpr int depth = 7;
+  const auto diffusion = loaded<double>(sheet);
+  using Step = tissue::TiledStep<ExecutionSpace, std::decay_t<decltype(diffusion)>, solver::Model<double>,
+                                 tissue::NoRecorder>;
   for (const int sweeps : {2, 5}) {
-    constexpr int depth = 7;
-    const auto expect_single_steps = [&](const auto& diffusion, const testing_support::Tolerance& tolerance) {
-      using Step = tissue::TiledStep<ExecutionSpace, std::decay_t<decltype(diffusion)>, solver::Model<double>,
-                                     tissue::NoRecorder>;
-      const auto state = random_state<double>(sheet), next = empty_state<double>(sheet);
-      Step::launch(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt,
-                   {sheet.rows, sheet.columns, depth, sweeps}, state, next);
-      expect_equal(sweeps % 2 == 1 ? next : state,
-                   single_steps<double>(sheet, loaded<double>(sheet), depth * sweeps), sheet.columns,
-                   tolerance);
-    };
-    expect_single_steps(loaded<double>(sheet), {});
-    expect_single_steps(from_nodes<double>(sheet), {.absolute = 1e-12});
+    const auto state = random_state<double>(sheet), next = empty_state<double>(sheet);
+    Step::launch(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt,
+                 {sheet.rows, sheet.columns, depth, sweeps}, state, next);
+    expect_equal(sweeps % 2 == 1 ? next : state, single_steps<double>(sheet, diffusion, depth * sweeps),
+                 sheet.columns);
   }
 }
 
@@ -348,8 +318,7 @@ void expect_the_bits_of_the_whole_sheet() {
       for (const auto& shares : {active_shares(at, identity, model, corners),
                                  active_shares(at, identity, without_tension, corners),
                                  active_shares(at, conservative, model, corners),
-                                 active_shares(at, conservative, without_tension, corners),
-                                 active_shares(at, from_nodes<Real>(at), model, corners)}) {
+                                 active_shares(at, conservative, without_tension, corners)}) {
         EXPECT_LT(shares.front(), 0.1);
         EXPECT_LT(shares[1], 0.9);
         EXPECT_GT(shares.back(), shares[1]);
