@@ -215,11 +215,7 @@ std::vector<Section> make_schema() {
         {"overlap", "", flag(MYOWAVE_AT(scene.mechanics->overlap)),
          "`true`: the sheet is solved on a core of its own while the next interval runs, and conduction "
          "feels "
-         "the deformation one interval later. Its error is in solver/README.md."},
-        {"trigger", "kPa", number(MYOWAVE_AT(scene.mechanics->trigger), not_negative),
-         "A due solve is left out where the tension has moved by no more at any Gauss point since the last "
-         "one. "
-         "0: where it is exactly the same."}}},
+         "the deformation one interval later. Its error is in solver/README.md."}}},
       {"feedback",
        "How the deformation acts on conduction. No effect in a rigid run.",
        {{"metric", "", choice({"none", "conservative", "expanded"}, MYOWAVE_AT(scene.metric)),

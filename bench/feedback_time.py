@@ -5,8 +5,8 @@
 
 EXECUTABLE is the `myowave` command. The contracting sheet of 251 x 251 nodes from a broken front, b = 0.11, for
 100 t.u.: the relative L2 difference of V at t = 20, 50 and 100 from interval 5 quadratic, for each interval and
-feedback.time, without and with mechanics.overlap, and for some triggers. Then the wall times of runs that write no
-fields, held and quadratic in turns: medians. Needs h5py.
+feedback.time, without and with mechanics.overlap. Then the wall times of runs that write no fields, held and
+quadratic in turns: medians. Needs h5py.
 """
 
 import argparse
@@ -51,10 +51,10 @@ class Runs:
                        cwd=self.folder, check=True)
         return json.loads((self.folder / "out" / "summary.json").read_text())
 
-    def solves_and_V(self, **values):
-        solves = self.summary(output_fields=True, **values)["mechanics"]["solves"]
+    def V(self, **values):
+        self.summary(output_fields=True, **values)
         with h5py.File(self.folder / "out" / "fields.h5") as file:
-            return solves, [file["V"][t // EVERY].astype(float) for t in LOOKS]
+            return [file["V"][t // EVERY].astype(float) for t in LOOKS]
 
 
 def shown_errors(V, exact):
@@ -66,20 +66,9 @@ def show_errors(runs, exact, intervals, overlap):
     for interval in intervals:
         cells = []
         for time in TIMES:
-            _, V = runs.solves_and_V(mechanics_interval=interval, feedback_time=time, mechanics_overlap=overlap)
+            V = runs.V(mechanics_interval=interval, feedback_time=time, mechanics_overlap=overlap)
             cells.append(shown_errors(V, exact))
         print(f"| {interval} | {' | '.join(cells)} |", flush=True)
-    print()
-
-
-def show_triggers(runs, exact):
-    print("| trigger, kPa | solves, held | error | solves, quadratic | error |\n|---|---|---|---|---|")
-    for trigger in (0, 1, 2, 5):
-        cells = []
-        for time in ("held", "quadratic"):
-            solves, V = runs.solves_and_V(mechanics_interval=10, feedback_time=time, mechanics_trigger=trigger)
-            cells += [str(solves), shown_errors(V, exact)]
-        print(f"| {trigger} | {' | '.join(cells)} |", flush=True)
     print()
 
 
@@ -103,10 +92,9 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         runs = Runs(options.executable, pathlib.Path(name))
-        _, exact = runs.solves_and_V(mechanics_interval=5, feedback_time="quadratic")
+        exact = runs.V(mechanics_interval=5, feedback_time="quadratic")
         show_errors(runs, exact, INTERVALS, overlap=False)
         show_errors(runs, exact, OVERLAPPED, overlap=True)
-        show_triggers(runs, exact)
         show_costs(runs, options.repetitions)
 
 

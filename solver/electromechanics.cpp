@@ -205,9 +205,7 @@ void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
     space_.fence("myowave::solver::begin_mechanics");
   }
   begun_ = BegunSolve{t, {}};
-  // The first gives the run its nodes, however near its tension is to that of the rest state.
-  const double trigger = solved_nodes_.empty() ? 0 : scene_.mechanics->trigger;
-  if (equilibrium_->is_solved_for(host_, gauss_tension_.host, trigger)) return;
+  if (equilibrium_->is_solved_for(host_, gauss_tension_.host)) return;
   // Deferred: it is solved where it is taken.
   const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
   begun_->report = std::async(policy, [this, t] {
@@ -228,9 +226,7 @@ bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
       add_to_statistics(begun.report.get());
     else
       ++statistics_->left_out;
-    // The nodes of a solve that the trigger left out are those of an earlier time.
-    if (scene_.mechanics->trigger == 0 || equilibrium_->is_solved_for(host_, gauss_tension_.host))
-      moved = solved_nodes_.add(begun.t, equilibrium_->nodes());
+    moved = solved_nodes_.add(begun.t, equilibrium_->nodes());
   }
   if (place_nodes(t)) refresh_metric(t);
   if (moved) measure_area();

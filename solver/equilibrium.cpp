@@ -264,8 +264,8 @@ SolveReport Equilibrium<ExecutionSpace>::solve(const ExecutionSpace& space,
 
 template <class ExecutionSpace>
 bool Equilibrium<ExecutionSpace>::is_solved_for(const ExecutionSpace& space,
-                                                const GaussTension<MemorySpace>& Ta, double distance) const {
-  return impl_->in_equilibrium && elastic::near_tension(space, impl_->solved_Ta, Ta, distance);
+                                                const GaussTension<MemorySpace>& Ta) const {
+  return impl_->in_equilibrium && elastic::same_tension(space, impl_->solved_Ta, Ta);
 }
 
 template <class ExecutionSpace>

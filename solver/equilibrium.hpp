@@ -44,10 +44,9 @@ class Equilibrium {
   // the sheet has no stable rest state.
   SolveReport solve(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double time);
 
-  // The nodes are in equilibrium with a tension that is within `distance` (kPa) of this one at every
-  // Gauss point. With 0 it is the same to the bit: a solve would find its residual small enough at
-  // once and move none of them.
-  bool is_solved_for(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double distance = 0) const;
+  // Whether the nodes are in equilibrium with exactly this tension: a solve would find its residual small
+  // enough at once and move none of them.
+  bool is_solved_for(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta) const;
 
   // Current positions, length units; written by solve().
   const Nodes<MemorySpace>& nodes() const;

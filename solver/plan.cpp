@@ -125,8 +125,7 @@ PlannedPart mechanics(const Scene& scene, const Sizes& sizes) {
           : fmt::format("edge load p = {} kN/m ({})", m.p, m.load == Load::follower ? "follower" : "dead");
   const std::string solves =
       m.contraction
-          ? fmt::format("solved every {} steps where a tension has changed{}{}", m.interval,
-                        m.trigger > 0 ? fmt::format(" by more than {} kPa", m.trigger) : "",
+          ? fmt::format("solved every {} steps where a tension has changed{}", m.interval,
                         m.overlap ? ", while the next steps run: nodes and metric are one interval old" : "")
           : std::string("solved once, without contraction");
   const std::uint64_t vector = 2 * sizeof(double) * sizes.element_nodes;

@@ -97,7 +97,7 @@ struct PhaseSeconds {
 
 struct MechanicsStatistics {
   std::int64_t solves = 0;
-  std::int64_t left_out = 0;  // were due, but no tension had changed since the last one, or by too little
+  std::int64_t left_out = 0;  // were due, but no tension had changed since the last one
   std::int64_t newton_iterations = 0, newton_max = 0, factorizations = 0, shifts = 0;
   std::int64_t not_elliptic = 0;  // solves with a Gauss point where ellipticity is lost
   double min_J = 1;               // smallest at any corner of any element over all accepted solutions

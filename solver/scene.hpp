@@ -77,7 +77,6 @@ struct MechanicsSettings {
   double tolerance = 1e-8;  // max|R_free| / (10 kPa h)
   bool contraction = true;  // false: Ta does not load the mechanics
   bool overlap = false;     // solve while the next interval runs, with a metric one interval older
-  double trigger = 0;       // kPa; solve only where Ta has moved by more at a Gauss point
 };
 
 struct Stimulus {

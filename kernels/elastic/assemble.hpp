@@ -107,17 +107,16 @@ void mix_tension(const Space& space, const GaussTension<typename Space::memory_s
       });
 }
 
-// Whether one is within `distance` (kPa) of the other at every Gauss point, with 0 the same to the bit; what
-// is not a number never is.
+// Whether both are equal at every Gauss point; NaN equals nothing.
 template <class Space>
-bool near_tension(const Space& space, const GaussTension<typename Space::memory_space>& one,
-                  const GaussTension<typename Space::memory_space>& other, double distance) {
+bool same_tension(const Space& space, const GaussTension<typename Space::memory_space>& one,
+                  const GaussTension<typename Space::memory_space>& other) {
   int different = 0;
   Kokkos::parallel_reduce(
-      "myowave::elastic::near_tension", detail::range(space, static_cast<int>(one.extent(0))),
+      "myowave::elastic::same_tension", detail::range(space, static_cast<int>(one.extent(0))),
       KOKKOS_LAMBDA(int e, int& count) {
         for (int q = 0; q < gauss_points; ++q)
-          if (!(one(e, q) >= other(e, q) - distance && one(e, q) <= other(e, q) + distance)) ++count;
+          if (!(one(e, q) == other(e, q))) ++count;
       },
       different);
   return different == 0;

@@ -143,41 +143,28 @@ TEST(ReferenceCoupled, IntervalThatDoesNotDivideTheRun) {
   expect_product_is_reference(scene);
 }
 
-class BetweenSolves : public ::testing::TestWithParam<std::tuple<MetricTime, bool, double>> {};
+class BetweenSolves : public ::testing::TestWithParam<std::tuple<MetricTime, bool>> {};
 
 TEST_P(BetweenSolves, IsTheReference) {
   solver::Scene scene = coupled_scene();
-  std::tie(scene.metric_time, scene.mechanics->overlap, scene.mechanics->trigger) = GetParam();
+  std::tie(scene.metric_time, scene.mechanics->overlap) = GetParam();
   scene.mechanics->interval = 10;
   expect_product_is_reference(scene);
 }
 
 std::string between_name(const ::testing::TestParamInfo<BetweenSolves::ParamType>& info) {
-  const auto& [time, overlap, trigger] = info.param;
+  const auto& [time, overlap] = info.param;
   const std::string name = time == MetricTime::held     ? "held"
                            : time == MetricTime::linear ? "linear"
                                                         : "quadratic";
-  return name + (overlap ? "_overlap" : "") + (trigger > 0 ? "_trigger" : "");
+  return name + (overlap ? "_overlap" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(ReferenceCoupled, BetweenSolves,
                          ::testing::Combine(::testing::Values(MetricTime::held, MetricTime::linear,
                                                               MetricTime::quadratic),
-                                            ::testing::Bool(), ::testing::Values(0.0, 3.0)),
+                                            ::testing::Bool()),
                          between_name);
-
-TEST(ReferenceCoupled, ATriggerLeavesOutSolvesWhileTheTensionHardlyMoves) {
-  solver::Scene scene = coupled_scene();
-  scene.mechanics->interval = 10;
-  const auto solves = [&](double trigger) {
-    scene.mechanics->trigger = trigger;
-    return reference::run(scene, broken_front(), steps).solves;
-  };
-  EXPECT_EQ(solves(0), 21);
-  EXPECT_GT(solves(3), 4);
-  EXPECT_LT(solves(3), 15);
-  EXPECT_EQ(solves(100), 1);
-}
 
 class EveryCoupling : public ::testing::TestWithParam<std::tuple<MetricForm, solver::Load, std::string>> {};
 

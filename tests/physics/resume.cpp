@@ -178,17 +178,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"linear", [](solver::Scene& s) { s.metric_time = solver::MetricTime::linear; }},
                     Case{"quadratic",
                          [](solver::Scene& s) { s.metric_time = solver::MetricTime::quadratic; }},
-                    Case{"trigger",
-                         [](solver::Scene& s) {
-                           s.metric_time = solver::MetricTime::quadratic;
-                           s.mechanics->interval = 7;
-                           s.mechanics->trigger = 4;
-                         }},
                     Case{"overlap_between_solves",
                          [](solver::Scene& s) {
                            s.metric_time = solver::MetricTime::quadratic;
                            s.mechanics->overlap = true;
-                           s.mechanics->trigger = 4;
                          }},
                     Case{"fixed_edges", [](solver::Scene& s) { s.mechanics->edges = solver::Edges::fixed; }},
                     Case{"dead_load", [](solver::Scene& s) { s.mechanics->load = solver::Load::dead; }},

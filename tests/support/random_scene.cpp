@@ -251,8 +251,6 @@ class RandomScene {
 
   void between_solves() {
     if (draw_.chance(deforms_ ? 0.5 : 0.1)) scene_.set("feedback", "time", draw_.one_of(metric_times));
-    if (deforms_ && draw_.chance(0.3))
-      scene_.set("mechanics", "trigger", text_of(rounded(draw_.log_number(1e-6, 20))));
   }
 
   void accuracy() {

@@ -111,18 +111,15 @@ CoupledState run(const Scene& scene, const ExcitationState& initial, int steps) 
     equilibrium = solve_equilibrium(mesh_of(scene), *scene.mechanics, Ta, equilibrium);
     solved_Ta = Ta;
   };
-  // The equilibrium at t; none where the tension has hardly moved.
-  const auto begin = [&](double t) -> std::optional<Solve> {
+  const auto begin = [&](double t) -> Solve {
     const Values no_tension(initial.Ta.size());
     const Values Ta = tension_to_gauss(mesh_of(scene), grid_of(scene),
                                        scene.mechanics->contraction ? state.fields.Ta : no_tension);
-    const double moved = largest_difference(Ta, solved_Ta);
-    if (moved > 0 && !taken.empty() && moved <= scene.mechanics->trigger) return std::nullopt;
-    if (moved > 0) {
+    if (largest_difference(Ta, solved_Ta) > 0) {
       solve(Ta);
       ++state.solves;
     }
-    return Solve{t, equilibrium};
+    return {t, equilibrium};
   };
   const auto take = [&] {
     if (begun) taken.push_back(*begun);
