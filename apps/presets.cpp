@@ -17,7 +17,6 @@ constexpr std::array paper{
     PresetValue{"feedback.time", "\"held\"", Sheet::elastic},
     PresetValue{"mechanics.interval", "80", Sheet::elastic},
     PresetValue{"mechanics.tolerance", "1e-8", Sheet::elastic},
-    PresetValue{"mechanics.overlap", "false", Sheet::elastic},
 };
 
 // `first` and then `second`.

@@ -211,11 +211,7 @@ std::vector<Section> make_schema() {
          number(MYOWAVE_AT(scene.mechanics->tolerance), {.low = 0, .high = 0.01, .low_open = true}),
          "Newton stops when the largest free residual is below this times 10 kPa times the element side."},
         {"contraction", "", flag(MYOWAVE_AT(scene.mechanics->contraction)),
-         "`false`: the tension does not load the sheet."},
-        {"overlap", "", flag(MYOWAVE_AT(scene.mechanics->overlap)),
-         "`true`: the sheet is solved on a core of its own while the next interval runs, and conduction "
-         "feels "
-         "the deformation one interval later. Its error is in solver/README.md."}}},
+         "`false`: the tension does not load the sheet."}}},
       {"feedback",
        "How the deformation acts on conduction. No effect in a rigid run.",
        {{"metric", "", choice({"none", "conservative", "expanded"}, MYOWAVE_AT(scene.metric)),

@@ -33,7 +33,6 @@ constexpr std::array all{
     Dial{"mechanics.interval", "10,20,40,80,160,320", true, "steps from one solve to the next"},
     Dial{"mechanics.cells_per_element", "2,5,10,25", true, "size of an element, in grid.dx"},
     Dial{"mechanics.tolerance", "1e-2,1e-4,1e-6,1e-8,1e-10", true, "where Newton stops"},
-    Dial{"mechanics.overlap", "false,true", true, "solve beside the steps, one interval late"},
     Dial{"output.watch_every", "0.2,0.5,1", false, "t.u. from one look for tips to the next"},
 };
 
@@ -192,7 +191,6 @@ std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
   if (!own.mechanics) return overrides;
   // coupling / k
   set("mechanics.interval", static_cast<int>(std::lround(coupling / looks)) * steps * k);
-  set("mechanics.overlap", false);
   if (own.metric == solver::MetricForm::expanded) set("accuracy.scheme", "euler");
   if (solver::contracts(own)) set("accuracy.on_unstable", "substep");
   return overrides;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr std::array<char, 16> magic{'m', 'y', 'o', 'w', 'a', 'v',  'e',  ' ',
                                      's', 't', 'a', 't', 'e', '\r', '\n', 0x1a};
 

@@ -13,7 +13,6 @@
 #include "kernels/observe/area_change.hpp"
 #include "kernels/observe/probes.hpp"
 #include "kernels/transfer/tension_to_gauss.hpp"
-#include "solver/denormals.hpp"
 #include "solver/error.hpp"
 #include "solver/mirror.hpp"
 #include "solver/rhythm.hpp"
@@ -92,16 +91,6 @@ auto values_of(const tissue::ActiveStimulus& stimulus) {
                     r.radius2, stimulus.amplitude);
 }
 
-// For solves on a thread of their own. One thread, for the others belong to the steps. Not where one core has
-// everything to do.
-template <class ExecutionSpace>
-std::optional<HostOf<ExecutionSpace>> second_host_instance() {
-#ifdef KOKKOS_ENABLE_SERIAL
-  if constexpr (std::is_same_v<ExecutionSpace, Kokkos::Serial>) return std::nullopt;
-#endif
-  return own_host_instance<HostOf<ExecutionSpace>>(1);
-}
-
 }  // namespace
 
 template <class ExecutionSpace, class Real>
@@ -172,7 +161,6 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionOn<Execu
   element_areas_ =
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
   const Timer timer(phases_->mechanics);
-  if (scene.mechanics->overlap && contracts(scene)) solver_space_ = second_host_instance<ExecutionSpace>();
   equilibrium_.emplace(host_, elements, *scene.mechanics);
   const SolveReport rest = equilibrium_->solve(host_, gauss_tension_.host, 0);
   statistics_->min_J = std::min(statistics_->min_J, rest.min_J);
@@ -187,51 +175,30 @@ int Electromechanics<ExecutionSpace, Real>::mechanics_interval() const {
 }
 
 template <class ExecutionSpace, class Real>
-bool Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
-  const bool taken = finish_mechanics(t);
-  begin_mechanics(t);
-  const bool at_once = !scene_.mechanics->overlap || solved_nodes_.empty();
-  return at_once ? finish_mechanics(t) : taken;
-}
-
-template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::begin_mechanics(double t) {
-  const Timer timer(phases_->transfer);
-  if (contracts(scene_)) {
-    transfer::tension_to_gauss<ExecutionSpace, Real>(space_, equilibrium_->grid(),
-                                                     scene_.mechanics->cells_per_element, state_.Ta, 0,
-                                                     gauss_tension_.device);
-    Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
-    space_.fence("myowave::solver::begin_mechanics");
-  }
-  begun_ = BegunSolve{t, {}};
-  if (equilibrium_->is_solved_for(host_, gauss_tension_.host)) return;
-  // Deferred: it is solved where it is taken.
-  const auto policy = solver_space_ ? std::launch::async : std::launch::deferred;
-  begun_->report = std::async(policy, [this, t] {
-                     if (solver_space_) flush_denormals_of_this_thread();
-                     return equilibrium_->solve(solver_space_.value_or(host_), gauss_tension_.host, t);
-                   }).share();
-}
-
-template <class ExecutionSpace, class Real>
-bool Electromechanics<ExecutionSpace, Real>::finish_mechanics(double t) {
-  if (!begun_) return false;
-  BegunSolve begun = std::move(*begun_);
-  begun_.reset();
+void Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
+  download_tension();
   bool moved = false;
   {
     const Timer timer(phases_->mechanics);
-    if (begun.report.valid())
-      add_to_statistics(begun.report.get());
-    else
+    if (equilibrium_->is_solved_for(host_, gauss_tension_.host))
       ++statistics_->left_out;
-    moved = solved_nodes_.add(begun.t, equilibrium_->nodes());
+    else
+      add_to_statistics(equilibrium_->solve(host_, gauss_tension_.host, t));
+    moved = solved_nodes_.add(t, equilibrium_->nodes());
   }
   if (place_nodes(t)) refresh_metric(t);
   if (moved) measure_area();
-  area_.t = begun.t;
-  return true;
+  area_.t = t;
+}
+
+template <class ExecutionSpace, class Real>
+void Electromechanics<ExecutionSpace, Real>::download_tension() {
+  if (!contracts(scene_)) return;
+  const Timer timer(phases_->transfer);
+  transfer::tension_to_gauss<ExecutionSpace, Real>(
+      space_, equilibrium_->grid(), scene_.mechanics->cells_per_element, state_.Ta, 0, gauss_tension_.device);
+  Kokkos::deep_copy(space_, gauss_tension_.host, gauss_tension_.device);
+  space_.fence("myowave::solver::download_tension");
 }
 
 template <class ExecutionSpace, class Real>
@@ -519,23 +486,10 @@ InitialState Electromechanics<ExecutionSpace, Real>::download() const {
 }
 
 template <class ExecutionSpace, class Real>
-bool Electromechanics<ExecutionSpace, Real>::save(StateWriter& writer) {
+void Electromechanics<ExecutionSpace, Real>::save(StateWriter& writer) {
   space_.fence("myowave::solver::save");
   state(writer);
-  if (!equilibrium_) return true;
-  SolveReport report;
-  const bool begun = begun_.has_value(), solved = begun && begun_->report.valid();
-  if (solved) {
-    const Timer timer(phases_->mechanics);
-    try {
-      report = begun_->report.get();
-    } catch (const NumericalFailure&) {
-      return false;
-    }
-  }
-  equilibrium_->save(writer);
-  writer(begun, begun ? begun_->t : 0.0, solved, report);
-  return true;
+  if (equilibrium_) equilibrium_->save(writer);
 }
 
 template <class ExecutionSpace, class Real>
@@ -543,16 +497,6 @@ void Electromechanics<ExecutionSpace, Real>::load(StateReader& reader, double t)
   state(reader);
   if (!equilibrium_) return;
   equilibrium_->load(host_, reader);
-  bool begun = false, solved = false;
-  BegunSolve solve{0, {}};
-  SolveReport report;
-  reader(begun, solve.t, solved, report);
-  if (solved) {
-    std::promise<SolveReport> made;
-    made.set_value(report);
-    solve.report = made.get_future().share();
-  }
-  if (begun) begun_ = std::move(solve);
   if (!solved_nodes_.empty()) refresh_metric(t);
 }
 

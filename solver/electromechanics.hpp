@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Kokkos_Core.hpp>
-#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,21 +50,16 @@ class Electromechanics {
   Electromechanics(const ExecutionOn<ExecutionSpace>&, const Scene&, const InitialState&, PhaseSeconds&,
                    MechanicsStatistics&);
 
-  // A solve may be at work on what is in here.
   Electromechanics(const Electromechanics&) = delete;
   Electromechanics& operator=(const Electromechanics&) = delete;
 
   // Steps between solves; 0 in a rigid sheet.
   int mechanics_interval() const;
 
-  // Equilibrium with the tension of now, then the metric of the interval that begins. With
-  // mechanics.overlap: takes the solve begun by the call before, which it waits for, and begins the
-  // one with the tension of now; only the first is solved at once. True where nodes, metric and
-  // area() are new.
-  // Errors: NumericalFailure, also where the new metric makes dt unstable and the scene takes no substeps.
-  bool solve_mechanics(double t);
-  // Takes the solve that is begun, if any. Returns and errors as above.
-  bool finish_mechanics(double t);
+  // Solves the equilibrium with the present tension, where that has changed, then refreshes the metric for
+  // the interval from t on and area(). Errors: NumericalFailure, also where the new metric makes dt unstable
+  // and the scene takes no substeps.
+  void solve_mechanics(double t);
 
   // `count` explicit steps from step `first`, each in so many substeps; t = step dt. Appends V at the
   // probes before each step.
@@ -83,7 +77,7 @@ class Electromechanics {
   // be one. dt: of the steps that led here; 0: none did.
   std::optional<std::string> find_fault(double t, double dt);
 
-  // kPa, of the Gauss points at the last solve begun.
+  // kPa, of the Gauss points at the last solve.
   double largest_tension() const;
 
   struct Activity {
@@ -102,7 +96,7 @@ class Electromechanics {
   void look_at_activation(double t);
   ActivationMaps activation_maps() const;
 
-  const AreaSample& area() const { return area_; }  // of the last solve taken, at the time of its tension
+  const AreaSample& area() const { return area_; }  // of the last solve
   // Of each element, relative to the loaded rest state.
   std::vector<double> element_area_ratios() const;
   bool deforms() const { return equilibrium_.has_value(); }
@@ -110,9 +104,8 @@ class Electromechanics {
   InitialState download() const;
   std::vector<double> download_nodes() const;
 
-  // All that the steps to come depend on, between two steps. A solve that is begun is waited for, and is
-  // taken when it is due. False where it has failed: what ends the run at its time cannot be kept.
-  bool save(StateWriter&);
+  // All that the steps to come depend on, between two steps.
+  void save(StateWriter&);
   // Of a sheet of the same scene, at time t. Errors: StateMismatch.
   void load(StateReader&, double t);
   bool more_stimuli(double t) const { return schedule_.more_to_come(t); }
@@ -127,7 +120,7 @@ class Electromechanics {
     if (scene_.output.maps) archive(activation_.marks, activation_.records);
     if (equilibrium_) archive(gauss_tension_.host, solved_nodes_, nodes_.host, element_areas_);
   }
-  void begin_mechanics(double t);
+  void download_tension();
   void add_to_statistics(const SolveReport&);
   // To where conduction feels the nodes from t on; true where one has moved.
   bool place_nodes(double t);
@@ -159,7 +152,7 @@ class Electromechanics {
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;
   Mirrored<GaussTension<Space>> gauss_tension_;
-  SolvedNodes solved_nodes_;      // of the solves taken
+  SolvedNodes solved_nodes_;
   Mirrored<Nodes<Space>> nodes_;  // those that conduction feels
   Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
@@ -177,14 +170,6 @@ class Electromechanics {
   std::optional<double> activation_look_;                 // t of the last one
   Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
   std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
-
-  struct BegunSolve {
-    double t;                                // of its tension
-    std::shared_future<SolveReport> report;  // none where the solve is left out
-  };
-  std::optional<Host> solver_space_;  // of solves on a thread of their own
-  // Last, so that its destructor waits for the solve before what it works on goes.
-  std::optional<BegunSolve> begun_;
 };
 
 }  // namespace myowave::solver

@@ -7,11 +7,6 @@
 namespace myowave::solver {
 namespace {
 
-// In spacings of the last two solves, past the last. As far as an overlapped solve asks for, which is an
-// interval old. Solves that are left out because the tension hardly moves ask for more; but the polynomial
-// tells of a motion that has slowed down since, and further out it would move nodes that stand still.
-constexpr double furthest = 1.5;
-
 bool turns_a_corner(const elastic::ElementGrid& grid, const SolvedNodes::HostNodes& nodes) {
   for (int e = 0; e < grid.elements(); ++e)
     if (!(elastic::min_corner_J(elastic::element_nodes(grid, nodes, e), grid.h) > 0)) return true;
@@ -56,8 +51,7 @@ const SolvedNodes::HostNodes& SolvedNodes::at(double t) {
 void SolvedNodes::place(double t, std::size_t solves) {
   std::array<double, most_solves> times{};
   std::ranges::transform(solves_, times.begin(), &Solve::t);
-  const double limit = times[0] + furthest * (times[0] - times[1]);
-  const auto weights = lagrange_weights(std::span(times).first(solves), std::min(t, limit));
+  const auto weights = lagrange_weights(std::span(times).first(solves), t);
   const double* const newest = last().data();
   std::copy_n(newest, placed_.size(), placed_.data());
   for (std::size_t n = 1; n < solves; ++n) {

@@ -185,7 +185,6 @@ void add_mechanics(Cases& cases) {
   for (const double c2 : {0.01, 1e3})
     cases.one("mechanics.c2", fmt::format("{:g}", c2), true).scene.mechanics->c2 = c2;
   cases.one("feedback.metric", "expanded", true).scene.metric = MetricForm::expanded;
-  cases.one("mechanics.overlap", "true", true).scene.mechanics->overlap = true;
   cases.one("mechanics.edges", "fixed", true).scene.mechanics->edges = Edges::fixed;
 }
 

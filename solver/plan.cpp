@@ -124,10 +124,8 @@ PlannedPart mechanics(const Scene& scene, const Sizes& sizes) {
           ? "edges fixed"
           : fmt::format("edge load p = {} kN/m ({})", m.p, m.load == Load::follower ? "follower" : "dead");
   const std::string solves =
-      m.contraction
-          ? fmt::format("solved every {} steps where a tension has changed{}", m.interval,
-                        m.overlap ? ", while the next steps run: nodes and metric are one interval old" : "")
-          : std::string("solved once, without contraction");
+      m.contraction ? fmt::format("solved every {} steps where a tension has changed", m.interval)
+                    : std::string("solved once, without contraction");
   const std::uint64_t vector = 2 * sizeof(double) * sizes.element_nodes;
   const std::uint64_t tension = 4 * sizeof(double) * sizes.elements;
   const std::uint64_t places = sizes.element_nodes + sizes.element_columns + 2;

@@ -134,13 +134,14 @@ class Stage {
       show_beats();
       arrive(sheet);
     }
-    if (sheet.finish_mechanics(t())) observers_.add_area(sheet.area());
   }
 
   // The order at a step: solve the mechanics and refresh the metric, then sample; the Euler step comes after.
   void arrive(Sheet& sheet) {
-    if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0 && sheet.solve_mechanics(t()))
+    if (schedule_.mechanics > 0 && step_ % schedule_.mechanics == 0) {
+      sheet.solve_mechanics(t());
       observers_.add_area(sheet.area());
+    }
     look_at_tension(sheet);
     look_at_ellipticity();
     if (role_.observed) sample(sheet);
@@ -151,17 +152,17 @@ class Stage {
     const bool stop = control_.stop && *control_.stop;
     const double every = scene_.output.checkpoint_every;
     const bool due = every > 0 && static_cast<double>(step_ - kept_) * scene_.time.dt >= every - 1e-9;
-    if (control_.checkpoints && (stop || due) && !keep(sheet, stop)) return;
+    if (control_.checkpoints && (stop || due)) keep(sheet, stop);
     if (stop) throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", role_.name, t()));
   }
 
   // A run that goes on loses nothing by a checkpoint that cannot be written: the one before is still there,
-  // and the next may find room again. False where the next solve will end the run.
-  bool keep(Sheet& sheet, bool stop) {
+  // and the next may find room again.
+  void keep(Sheet& sheet, bool stop) {
     StateWriter writer;
     writer(role_.number, seconds_since(start_) + wall_before_);
     state(writer);
-    if (!sheet.save(writer)) return false;
+    sheet.save(writer);
     output([&] {
       try {
         control_.checkpoints->keep(writer, step_, t(), sink_.mark());
@@ -171,7 +172,6 @@ class Stage {
       }
     });
     kept_ = step_;
-    return true;
   }
 
   void load(Sheet& sheet, StateReader& saved) {

@@ -76,7 +76,6 @@ struct MechanicsSettings {
   int interval = 80;        // steps between solves
   double tolerance = 1e-8;  // max|R_free| / (10 kPa h)
   bool contraction = true;  // false: Ta does not load the mechanics
-  bool overlap = false;     // solve while the next interval runs, with a metric one interval older
 };
 
 struct Stimulus {

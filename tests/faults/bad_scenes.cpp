@@ -479,20 +479,6 @@ TEST_F(Executable, a_sheet_without_equilibrium_is_status_3_and_leaves_a_summary_
   EXPECT_EQ(outcome.output, "");
 }
 
-TEST_F(Executable, a_failure_beside_the_steps_is_status_3_too) {
-  const std::string scene =
-      file("strong.toml",
-           "grid.n = 21\ntime.t_end = 4\ntension.k_Ta = 1e5\n"
-           "initial.type = \"broken_front\"\nmechanics = {interval = 40, overlap = true}");
-  const std::string out = (folder_ / "out").string();
-  const test::Outcome outcome = test::run_myowave({"run", scene, "--out", out, "--quiet"});
-  EXPECT_EQ(outcome.status, 3) << outcome.errors;
-  EXPECT_THAT(outcome.errors, HasSubstr("no equilibrium found"));
-  const auto summary = nlohmann::json::parse(std::ifstream(out + "/summary.json"));
-  EXPECT_THAT(summary["failure"].get<std::string>(), HasSubstr("t = 0.8 t.u."));
-  EXPECT_EQ(summary["steps"], 80) << "the next solve takes it";
-}
-
 TEST_F(Executable, a_run_that_goes_wrong_is_status_3_and_substeps_heal_it) {
   const std::string scene =
       file("current.toml",

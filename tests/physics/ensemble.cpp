@@ -41,8 +41,6 @@ std::vector<solver::Scene> members() {
       scenes.push_back(spiral(mu1, contracts, solver::Precision::float64));
       scenes.push_back(spiral(mu1, contracts, solver::Precision::float32));
     }
-  scenes.push_back(spiral(0.1, true, solver::Precision::float64));
-  scenes.back().mechanics->overlap = true;
   scenes[2].on_unstable = solver::OnUnstable::substep;
   scenes[0].initial.preconditions = {{.duration = 2, .contraction = false, .excitation = {}, .tension = {}}};
   return scenes;

@@ -145,15 +145,13 @@ struct StillCase {
   int solves;
 };
 
-class StillSheet
-    : public ::testing::TestWithParam<std::tuple<StillCase, MetricForm, bool, solver::MetricTime>> {};
+class StillSheet : public ::testing::TestWithParam<std::tuple<StillCase, MetricForm, solver::MetricTime>> {};
 
 TEST_P(StillSheet, IsNotSolvedAgainAndIsTheSameToTheBit) {
-  const auto& [still, metric, overlap, time] = GetParam();
+  const auto& [still, metric, time] = GetParam();
   Scene scene = deforming_front();
   scene.metric = metric;
   scene.metric_time = time;
-  scene.mechanics->overlap = overlap;
   still.change(scene);
   const auto initial = tense_front(scene);
   const PlainSheet full(scene, initial);
@@ -179,15 +177,14 @@ INSTANTIATE_TEST_SUITE_P(
                                     1},
                           StillCase{"unfelt", [](Scene& s) { s.mechanics->contraction = false; }, 0}),
         ::testing::Values(MetricForm::none, MetricForm::conservative, MetricForm::expanded),
-        ::testing::Bool(), ::testing::Values(solver::MetricTime::held, solver::MetricTime::quadratic)),
+        ::testing::Values(solver::MetricTime::held, solver::MetricTime::quadratic)),
     [](const auto& one) {
       const auto metric = std::get<1>(one.param);
       return std::string(std::get<0>(one.param).name) +
              (metric == MetricForm::none       ? "_none"
               : metric == MetricForm::expanded ? "_expanded"
                                                : "_conservative") +
-             (std::get<2>(one.param) ? "_overlap" : "") +
-             (std::get<3>(one.param) == solver::MetricTime::held ? "" : "_quadratic");
+             (std::get<2>(one.param) == solver::MetricTime::held ? "" : "_quadratic");
     });
 
 // The steps of a wave that begins later: solves are left out until Ta moves, then none is.

@@ -82,9 +82,7 @@ void expect_product_is_reference(const solver::Scene& scene) {
   EXPECT_TRUE(all_close(actual.r, expected.fields.r, columns, {.absolute = 1e-12}));
   EXPECT_TRUE(all_close(actual.Ta, expected.fields.Ta, columns, {.absolute = 1e-10}));
   EXPECT_TRUE(all_close(sink.nodes, expected.nodes, 2, {.absolute = 1e-10}));
-  if (!scene.mechanics || !scene.mechanics->overlap) {  // else one more, which nothing feels
-    EXPECT_EQ(summary.mechanics.solves, expected.solves);
-  }
+  EXPECT_EQ(summary.mechanics.solves, expected.solves);
 }
 
 TEST(ReferenceCoupled, Rigid) { expect_product_is_reference(rigid_scene()); }
@@ -143,27 +141,21 @@ TEST(ReferenceCoupled, IntervalThatDoesNotDivideTheRun) {
   expect_product_is_reference(scene);
 }
 
-class BetweenSolves : public ::testing::TestWithParam<std::tuple<MetricTime, bool>> {};
+class BetweenSolves : public ::testing::TestWithParam<MetricTime> {};
 
 TEST_P(BetweenSolves, IsTheReference) {
   solver::Scene scene = coupled_scene();
-  std::tie(scene.metric_time, scene.mechanics->overlap) = GetParam();
+  scene.metric_time = GetParam();
   scene.mechanics->interval = 10;
   expect_product_is_reference(scene);
 }
 
 std::string between_name(const ::testing::TestParamInfo<BetweenSolves::ParamType>& info) {
-  const auto& [time, overlap] = info.param;
-  const std::string name = time == MetricTime::held     ? "held"
-                           : time == MetricTime::linear ? "linear"
-                                                        : "quadratic";
-  return name + (overlap ? "_overlap" : "");
+  return info.param == MetricTime::held ? "held" : info.param == MetricTime::linear ? "linear" : "quadratic";
 }
 
 INSTANTIATE_TEST_SUITE_P(ReferenceCoupled, BetweenSolves,
-                         ::testing::Combine(::testing::Values(MetricTime::held, MetricTime::linear,
-                                                              MetricTime::quadratic),
-                                            ::testing::Bool()),
+                         ::testing::Values(MetricTime::held, MetricTime::linear, MetricTime::quadratic),
                          between_name);
 
 class EveryCoupling : public ::testing::TestWithParam<std::tuple<MetricForm, solver::Load, std::string>> {};

@@ -174,15 +174,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"rigid", [](solver::Scene&) {}, false}, Case{"contracting", [](solver::Scene&) {}},
                     Case{"float32", [](solver::Scene& s) { s.precision = solver::Precision::float32; }},
                     Case{"expanded", [](solver::Scene& s) { s.metric = solver::MetricForm::expanded; }},
-                    Case{"overlap", [](solver::Scene& s) { s.mechanics->overlap = true; }},
                     Case{"linear", [](solver::Scene& s) { s.metric_time = solver::MetricTime::linear; }},
                     Case{"quadratic",
                          [](solver::Scene& s) { s.metric_time = solver::MetricTime::quadratic; }},
-                    Case{"overlap_between_solves",
-                         [](solver::Scene& s) {
-                           s.metric_time = solver::MetricTime::quadratic;
-                           s.mechanics->overlap = true;
-                         }},
                     Case{"fixed_edges", [](solver::Scene& s) { s.mechanics->edges = solver::Edges::fixed; }},
                     Case{"dead_load", [](solver::Scene& s) { s.mechanics->load = solver::Load::dead; }},
                     // 48 x 48 elements: factors by the multifrontal method.
@@ -197,7 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"float32_all",
                          [](solver::Scene& s) {
                            s.precision = solver::Precision::float32;
-                           s.mechanics->overlap = s.output.maps = true;
+                           s.output.maps = true;
                            s.quiescent = 1e-3;
                          }},
                     Case{"quiescent", [](solver::Scene& s) { s.quiescent = 1e-3; }, false},

@@ -22,7 +22,7 @@ std::uint64_t hash(std::initializer_list<const std::vector<double>*> fields) {
   return h;
 }
 
-solver::Scene coupled_spiral(solver::Precision precision, solver::MetricForm metric, bool overlap) {
+solver::Scene coupled_spiral(solver::Precision precision, solver::MetricForm metric) {
   solver::Scene scene;
   scene.grid = {81, 81, 0.6};
   scene.time.t_end = 5;  // 250 steps
@@ -30,7 +30,6 @@ solver::Scene coupled_spiral(solver::Precision precision, solver::MetricForm met
   scene.metric = metric;
   scene.mechanics.emplace();
   scene.mechanics->interval = 25;
-  scene.mechanics->overlap = overlap;
   scene.initial.type = solver::InitialSettings::Type::broken_front;
   scene.output.every = 5;
   scene.output.tips_every = 0.2;
@@ -41,10 +40,8 @@ void write_report(const std::string& path) {
   std::ofstream report(path);
   report << Kokkos::DefaultExecutionSpace().concurrency() << '\n';
   for (const auto precision : {solver::Precision::float64, solver::Precision::float32})
-    for (const auto& [metric, overlap] :
-         {std::pair{solver::MetricForm::conservative, false}, std::pair{solver::MetricForm::expanded, false},
-          std::pair{solver::MetricForm::conservative, true}}) {
-      const solver::Scene scene = coupled_spiral(precision, metric, overlap);
+    for (const auto metric : {solver::MetricForm::conservative, solver::MetricForm::expanded}) {
+      const solver::Scene scene = coupled_spiral(precision, metric);
       test::RecordingSink sink;
       sink.keep_fields = true;
       solver::RunSummary summary;

@@ -83,7 +83,7 @@ TEST(Tradeoff, OfARigidSheetTellsCostAndErrorOfEachSetting) {
 TEST(Tradeoff, OfAContractingSheetHasTheMechanicsDialsAndNamesTheNearestSetting) {
   const Tradeoff made(
       std::string(rigid) + "[mechanics]\n",
-      {"--set", "time.t_end=20", "--axes", "metric=none;overlap=true", "--target", "area=1e-9"});
+      {"--set", "time.t_end=20", "--axes", "metric=none;interval=40", "--target", "area=1e-9"});
   ASSERT_EQ(made.outcome.status, 3) << made.outcome.output << made.outcome.errors;
   EXPECT_THAT(made.outcome.errors, HasSubstr("the nearest is \""));
   EXPECT_FALSE(std::filesystem::exists(made.out() / "target.toml"));
@@ -92,7 +92,7 @@ TEST(Tradeoff, OfAContractingSheetHasTheMechanicsDialsAndNamesTheNearestSetting)
   EXPECT_EQ(error(results, "paper, feedback.metric=none", "cv"), error(results, "paper", "cv"));
   EXPECT_GT(error(results, "paper, feedback.metric=none", "field_end"),
             2 * error(results, "paper", "field_end"));
-  EXPECT_TRUE(setting(results, "balanced, mechanics.overlap=true")["errors"].contains("shortening"));
+  EXPECT_TRUE(setting(results, "balanced, mechanics.interval=40")["errors"].contains("shortening"));
 }
 
 // P15 at mu1 = 0.105: with the paper's steps, whose waves are 3 % slow, the spiral stays whole.

@@ -20,7 +20,7 @@ struct PlainSheet {
   using Host = Kokkos::DefaultHostExecutionSpace;
   using View = EnsembleField<double, MemorySpace>;
   View V, V_next, r, Ta;
-  Values nodes;  // with mechanics.overlap those of one interval before, the first its own
+  Values nodes;
 
   PlainSheet(const solver::Scene& scene, const solver::InitialState& state)
       : V(to_view<double>(state.rows, state.columns, {state.V})),
@@ -58,10 +58,9 @@ struct PlainSheet {
         if (mechanics.contraction)
           transfer::tension_to_gauss<ExecutionSpace, double>(space, elements, sheet.cells, Ta, 0, tension);
         Kokkos::deep_copy(tension_host, tension);
-        if (mechanics.overlap && step > mechanics.interval) solved.add(t(step - mechanics.interval), now);
         equilibrium.solve(host, tension_host, 0);
         Kokkos::deep_copy(now, equilibrium.nodes());
-        if (step == 0 || !mechanics.overlap) solved.add(t(step), now);
+        solved.add(t(step), now);
         Kokkos::deep_copy(felt, solved.at(t(step) + 0.5 * mechanics.interval * scene.time.dt));
         if constexpr (requires { form.transfer; })
           form.transfer.refresh(space, felt, form.diffusion.metric, 0);

@@ -111,7 +111,6 @@ class RandomScene {
     if (draw_.chance(0.7)) scene_.set("mechanics", "interval", fmt::format("{}", draw_.integer(1, 100)));
     if (draw_.chance(0.3))
       scene_.set("mechanics", "tolerance", text_of(rounded(draw_.log_number(1e-10, 1e-4))));
-    if (draw_.chance(0.3)) flag("mechanics", "overlap", 0.7);
     contracts_ = flag("mechanics", "contraction", 0.7);
     if (draw_.chance(0.15)) deforms_ = flag("mechanics", "on", 0.5);
     if (!deforms_) contracts_ = false;

@@ -106,12 +106,11 @@ CoupledState run(const Scene& scene, const ExcitationState& initial, int steps) 
   const double dt = scene.time.dt;
   Values equilibrium, solved_Ta, felt;
   std::vector<Solve> taken;
-  std::optional<Solve> begun;
   const auto solve = [&](const Values& Ta) {
     equilibrium = solve_equilibrium(mesh_of(scene), *scene.mechanics, Ta, equilibrium);
     solved_Ta = Ta;
   };
-  const auto begin = [&](double t) -> Solve {
+  const auto equilibrium_at = [&](double t) -> Solve {
     const Values no_tension(initial.Ta.size());
     const Values Ta = tension_to_gauss(mesh_of(scene), grid_of(scene),
                                        scene.mechanics->contraction ? state.fields.Ta : no_tension);
@@ -121,10 +120,6 @@ CoupledState run(const Scene& scene, const ExcitationState& initial, int steps) 
     }
     return {t, equilibrium};
   };
-  const auto take = [&] {
-    if (begun) taken.push_back(*begun);
-    begun.reset();
-  };
   if (scene.mechanics) {
     equilibrium = undeformed(mesh_of(scene));
     solve(Values(4 * static_cast<std::size_t>(mesh_of(scene).elements())));
@@ -132,9 +127,7 @@ CoupledState run(const Scene& scene, const ExcitationState& initial, int steps) 
   for (int step = 0;; ++step) {
     const double t = step * dt;
     if (scene.mechanics && step % scene.mechanics->interval == 0) {
-      take();
-      begun = begin(t);
-      if (!scene.mechanics->overlap || taken.empty()) take();
+      taken.push_back(equilibrium_at(t));
       state.nodes = taken.back().nodes;
       felt = metric_nodes(scene, taken, t + 0.5 * scene.mechanics->interval * dt);
     }

@@ -26,7 +26,6 @@ TEST(LagrangeWeights, OfEqualSpacings) {
   EXPECT_THAT(weights(1, 0.5), ElementsAre(1));
   EXPECT_THAT(weights(2, 0.5), ElementsAre(1.5, -0.5));
   EXPECT_THAT(weights(3, 0.5), ElementsAre(1.875, -1.25, 0.375));
-  // An overlapped solve is an interval old.
   EXPECT_THAT(weights(2, 1.5), ElementsAre(2.5, -1.5));
   EXPECT_THAT(weights(3, 1.5), ElementsAre(4.375, -5.25, 1.875));
 }
@@ -75,15 +74,6 @@ TEST(SolvedNodes, FollowAsManySolvesAsAreKnownAndKept) {
   EXPECT_THAT(corner_at(solved({q[2], q[3]}), 0.5), DoubleEq(1.5 * q[3] - 0.5 * q[2]));
   EXPECT_EQ(corner_at(solved({q[3]}), 0.5), q[3]);
   EXPECT_EQ(solved(q).last()(3, 1), q[3]);
-}
-
-TEST(SolvedNodes, GoNoFurtherThanOneAndAHalfSpacings) {
-  const std::vector<double> q{1.2, 1.1, 1.05};
-  for (const std::size_t kept : {2, 3}) {
-    const double limit = corner_at(solved(q, kept), 1.5);
-    EXPECT_NE(corner_at(solved(q, kept), 1), limit);
-    EXPECT_EQ(corner_at(solved(q, kept), 8), limit);
-  }
 }
 
 TEST(SolvedNodes, ThatDoNotMoveStayToTheBit) {
