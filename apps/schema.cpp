@@ -333,10 +333,7 @@ std::vector<Section> make_schema() {
          "not "
          "finite: `stop`: the run ends there, with exit status 3; `substep`: it goes back and divides dt, "
          "and "
-         "says how often. A dt past the bound of the undeformed sheet is refused in both."},
-        {"quiescent", "", number(MYOWAVE_AT(scene.quiescent), {.low = 0, .high = 1e-3}),
-         "Around all waves, nodes whose V, r and Ta / k_Ta are this close to zero are left as they are. "
-         "0: no bit of a result changes; 1e-12: the last digits. On hosts only."}}},
+         "says how often. A dt past the bound of the undeformed sheet is refused in both."}}},
       {"output",
        "What is written, besides summary.json, manifest.json, tips.csv, trajectories.csv, sources.csv, "
        "area.csv, probes.csv and beats.csv.",

@@ -185,7 +185,6 @@ std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
   for (const PresetValue& one : find_preset("reference")->values)
     if (one.holds(own.mechanics.has_value())) set(one.key, one.value);
   set("accuracy.dx", fmt::format("{:.15g}", dx / k));
-  set("accuracy.quiescent", 0);
   set("time.dt", looks / (steps * k * k));
   for (const char* key : {"output.every", "output.tips_every", "output.probes_every"}) set(key, looks);
   if (!own.mechanics) return overrides;

@@ -103,7 +103,6 @@ int main(int argc, char** argv) {
 
   bench::register_stream(suite);
   bench::register_tissue(suite);
-  bench::register_quiescent(suite);
   bench::register_elastic(suite);
   bench::register_transfer(suite);
   bench::register_observe(suite);

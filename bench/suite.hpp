@@ -34,7 +34,6 @@ struct Suite {
 
 void register_stream(const Suite&);
 void register_tissue(const Suite&);
-void register_quiescent(const Suite&);
 void register_elastic(const Suite&);
 void register_transfer(const Suite&);
 void register_observe(const Suite&);

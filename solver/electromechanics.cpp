@@ -115,7 +115,6 @@ Electromechanics<ExecutionSpace, Real>::Electromechanics(const ExecutionOn<Execu
       spare_{View("myowave::solver::V_next", 1, grid_.rows, grid_.columns), {}, {}},
       clean_(clean_range(scene, state)),
       stable_dt_(largest_stable_dt(scene, undeformed_stiffness(scene))),
-      active_(grid_, scene.quiescent, scene.tension.k_Ta),
       probe_values_("myowave::solver::probe_values", 3, scene.output.probes.size()),
       tip_count_("myowave::solver::tip_count"),
       tip_list_("myowave::solver::tip_list", first_tips),
@@ -317,8 +316,7 @@ void Electromechanics<ExecutionSpace, Real>::tiled_steps(int first, int count, d
           with_model<typename Form::Scheme>(scene_, model_, [&](const auto& model) {
             const observe::ProbeRecorder<std::decay_t<decltype(model)>, Space> record{
                 probe_nodes_, probe_record_.device, {model, Real(dt)}, grid_.columns, probe_rows_};
-            tissue::tiled_steps(space_, form.diffusion, model, dt, count, state_, spare_, first, record,
-                                &active_);
+            tissue::tiled_steps(space_, form.diffusion, model, dt, count, state_, spare_, first, record);
           });
       },
       form_);
@@ -340,7 +338,6 @@ void Electromechanics<ExecutionSpace, Real>::single_step(int n,
   for (const auto& stimulus : stimuli)
     tissue::add_stimulus(space_, spare_.V, stimulus, dt / scene_.excitation.C_m);
   std::swap(state_.V, spare_.V);
-  active_.forget();
 }
 
 template <class ExecutionSpace, class Real>
@@ -351,7 +348,6 @@ void Electromechanics<ExecutionSpace, Real>::keep() {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::go_back() {
   copy_fields(space_, state_, kept_);
-  active_.forget();
 }
 
 template <class ExecutionSpace, class Real>

@@ -114,9 +114,7 @@ class Electromechanics {
  private:
   template <class Archive>
   void state(Archive& archive) {
-    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, active_, area_, activation_look_);
-    // Where rest is only near zero, what lies outside the box is read.
-    if (scene_.quiescent > 0) archive(spare_.V, spare_.r, spare_.Ta);
+    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, area_, activation_look_);
     if (scene_.output.maps) archive(activation_.marks, activation_.records);
     if (equilibrium_) archive(gauss_tension_.host, solved_nodes_, nodes_.host, element_areas_);
   }
@@ -147,7 +145,6 @@ class Electromechanics {
   tissue::ExcitationFields<View> kept_;
   CleanRange clean_;
   double stable_dt_;
-  tissue::ActiveBox<Real> active_;
 
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;

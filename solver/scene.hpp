@@ -147,7 +147,6 @@ struct Scene {
   Scheme scheme = Scheme::euler;
   Preset preset = Preset::none;
   OnUnstable on_unstable = OnUnstable::stop;
-  double quiescent = 0;  // |V|, |r|, |Ta| / k_Ta at rest; 0: exactly
   OutputSettings output;
 };
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "kernels/base/views.hpp"
-#include "kernels/tissue/grid.hpp"
 
 namespace myowave::observe {
 
@@ -81,17 +80,6 @@ struct ProbeRecorder {
       const std::int64_t place = nodes(p) - first;
       if (place >= 0 && place < end - begin)
         lanes.once([&]() { record(step, p) = seen(V[place], r[place]); });
-    }
-  }
-
-  // The host's: of the nodes outside a box, which keep their state through all steps of a launch.
-  template <class Fields>
-  void outside(const tissue::NodeBox& box, const Fields& state, int first_step, int steps) const {
-    for (int p = 0; p < static_cast<int>(nodes.extent(0)); ++p) {
-      const int i = static_cast<int>(nodes(p) / columns), j = static_cast<int>(nodes(p) % columns);
-      if (box.contains(i, j)) continue;
-      const Real value = seen(state.V(0, i, j), state.r(0, i, j));
-      for (int step = first_step; step < first_step + steps; ++step) record(step, p) = value;
     }
   }
 };

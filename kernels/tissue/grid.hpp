@@ -11,18 +11,6 @@ struct Grid {
   double dx = 0.6;  // length units
 };
 
-// Nodes of a rectangle, half open.
-struct NodeBox {
-  int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
-  KOKKOS_FORCEINLINE_FUNCTION constexpr int rows() const { return last_row - first_row; }
-  KOKKOS_FORCEINLINE_FUNCTION constexpr int columns() const { return last_column - first_column; }
-  KOKKOS_FORCEINLINE_FUNCTION constexpr bool contains(int i, int j) const {
-    return i >= first_row && i < last_row && j >= first_column && j < last_column;
-  }
-};
-
-constexpr NodeBox whole(const Grid& grid) { return {0, grid.rows, 0, grid.columns}; }
-
 // No flux by mirroring about the boundary node: V(-1) = V(1), V(n) = V(n-2).
 KOKKOS_FORCEINLINE_FUNCTION constexpr int mirrored(int j, int n) {
   return j < 0 ? -j : (j < n ? j : 2 * (n - 1) - j);

@@ -16,7 +16,6 @@
 //   Ta_next          (members, rows, columns)   kPa    write, of several sweeps also read
 #pragma once
 
-#include "kernels/tissue/active_box.hpp"
 #include "kernels/tissue/row_update.hpp"
 
 namespace myowave::tissue {
@@ -27,12 +26,10 @@ struct ExcitationFields {
   View V, r, Ta;
 };
 
-// Nodes that a team owns, the steps of a sweep over them, the sweeps of one launch, more than one only where
-// a tile is a whole sheet, and the nodes that are taken; none: all. After an even number of sweeps the new
-// state is where the old one was.
+// Nodes that a team owns, the steps of a sweep over them, and the sweeps of one launch, more than one only
+// where a tile is a whole sheet. After an even number of sweeps the new state is where the old one was.
 struct TilePlan {
   int rows = 1, columns = 1, depth = 1, sweeps = 1;
-  NodeBox box = {};
 };
 
 // Looks at V and r of the owned nodes before each step; nothing by default.
@@ -41,8 +38,6 @@ struct NoRecorder {
   KOKKOS_FUNCTION void operator()(const Columns&, int /*m*/, int /*i*/, int /*step*/, int /*begin*/,
                                   int /*end*/, const Real* /*V from column begin on*/,
                                   const Real* /*r*/) const {}
-  template <class Fields>
-  void outside(const NodeBox&, const Fields& /*state*/, int /*first_step*/, int /*steps*/) const {}
 };
 
 // Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
@@ -107,7 +102,7 @@ struct TiledStep {
   Diffusion diffusion;
   Model model;
   Real dt;
-  TilePlan plan;  // with its box
+  TilePlan plan;
   int row_tiles, column_tiles;
   Pitch pitch;
   ExcitationFields<View> old_state, new_state;
@@ -170,13 +165,12 @@ struct TiledStep {
   // No fence. plan.columns is a multiple of a line's entries, or all columns, and no more than the widest
   // tile's; plan.depth is at most the deepest.
   static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
-                     TilePlan plan, const ExcitationFields<View>& old_state,
+                     const TilePlan& plan, const ExcitationFields<View>& old_state,
                      const ExcitationFields<View>& new_state, int first_step = 0,
                      const Recorder& record = {}) {
     const int members = static_cast<int>(old_state.V.extent(0));
-    if (plan.box.rows() == 0) plan.box = whole(diffusion.grid);
-    const int row_tiles = tiles_of(plan.box.rows(), plan.rows),
-              column_tiles = tiles_of(plan.box.columns(), plan.columns);
+    const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
+              column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
     const Pitch pitch = pitch_in(diffusion.grid, plan.columns, plan.depth);
     const TiledStep step{diffusion, model,     Real(dt),  plan,       row_tiles, column_tiles,
                          pitch,     old_state, new_state, first_step, record};
@@ -303,10 +297,9 @@ struct TiledStep {
 
   KOKKOS_FORCEINLINE_FUNCTION Tile tile_of(int rank) const {
     const int tiles = row_tiles * column_tiles, tile = rank % tiles, columns = diffusion.grid.columns;
-    const int first_row = plan.box.first_row + tile / column_tiles * plan.rows,
-              first_column = plan.box.first_column + tile % column_tiles * plan.columns;
-    const int last_row = Kokkos::min(first_row + plan.rows, plan.box.last_row);
-    const int last_column = Kokkos::min(first_column + plan.columns, plan.box.last_column);
+    const int first_row = tile / column_tiles * plan.rows, first_column = tile % column_tiles * plan.columns;
+    const int last_row = Kokkos::min(first_row + plan.rows, diffusion.grid.rows);
+    const int last_column = Kokkos::min(first_column + plan.columns, columns);
     const int origin = Kokkos::max(0, first_column - plan.depth) / line * line;
     const int width = (Kokkos::min(last_column + plan.depth, columns) - origin + line - 1) / line * line;
     return {rank / tiles, first_row, last_row, first_column,
@@ -420,28 +413,17 @@ struct TiledStep {
 };
 
 // Any number of steps without a stimulus, in sweeps of equal depth as far as it goes. The new state is in
-// `state` afterwards; `spare` are fields of the same shape. On a host, launches take the nodes of the active
-// box, if there is one, else all; on a device all, for a look would wait for the launch before.
+// `state` afterwards; `spare` are fields of the same shape.
 template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
 void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
                  int steps, ExcitationFields<View>& state, ExcitationFields<View>& spare, int first_step = 0,
-                 const Recorder& record = {},
-                 [[maybe_unused]] ActiveBox<typename Diffusion::Scalar>* active = nullptr) {
+                 const Recorder& record = {}) {
   using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
   const int members = static_cast<int>(state.V.extent(0));
   const int sweeps = Step::plan_sweeps(space, diffusion.grid, members, steps);
   for (int n = 0, done = 0; n < sweeps;) {
     const int depth = (steps - done) / (sweeps - n);
-    NodeBox box = whole(diffusion.grid);
-    if constexpr (Step::on_host)
-      if (active) {
-        space.fence("myowave::tissue::active_box");
-        box = active->find(state, spare, depth, Step::line);
-        if (box.rows() == 0) return record.outside(box, state, first_step + done, steps - done);
-        record.outside(box, state, first_step + done, depth);
-      }
-    TilePlan plan = Step::plan_tiles(space, {box.rows(), box.columns()}, members, depth);
-    plan.box = box;
+    TilePlan plan = Step::plan_tiles(space, diffusion.grid, members, depth);
     const bool whole_sheets = plan.rows == diffusion.grid.rows && plan.columns == diffusion.grid.columns;
     const int deeper = (steps - done) % (sweeps - n);  // of those to come are one step deeper
     if (whole_sheets) plan.sweeps = sweeps - n - deeper;

@@ -52,8 +52,7 @@ const BadScene bad_scenes[] = {
     {"key_of_another_section", "[grid]\nmu1 = 3",
      ":2:1: unknown key \"mu1\" in [grid]; it is a key of [excitation]"},
     {"unknown_key_far", "[accuracy]\n  speed = 3",
-     ":2:3: unknown key \"speed\" in [accuracy]; keys: preset, dx, precision, scheme, on_unstable, "
-     "quiescent"},
+     ":2:3: unknown key \"speed\" in [accuracy]; keys: preset, dx, precision, scheme, on_unstable"},
     {"unknown_key_of_a_precondition", "[[initial.precondition]]\nduration = 3\nmu3 = 1",
      ":3:1: unknown key \"mu3\" in [initial.precondition.0]; did you mean \"mu1\"?"},
     {"unknown_key_of_a_stimulus", "[[stimulus]]\namplitude = 1\n[[stimulus]]\namplitude = 1\nradius = 2",

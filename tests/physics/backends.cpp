@@ -91,7 +91,6 @@ const std::vector<Case> cases{
                             .center = {50, 15},
                             .radius = 5});
      }},
-    {"quiescent", [](Scene& s) { s.quiescent = 1e-6; }},
     {"single_precision", [](Scene& s) { s.precision = solver::Precision::float32; }},
 };
 

@@ -192,9 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
                          [](solver::Scene& s) {
                            s.precision = solver::Precision::float32;
                            s.output.maps = true;
-                           s.quiescent = 1e-3;
                          }},
-                    Case{"quiescent", [](solver::Scene& s) { s.quiescent = 1e-3; }, false},
                     Case{"without_tension", [](solver::Scene& s) { s.output.tension = false; }, false},
                     Case{"maps",
                          [](solver::Scene& s) {

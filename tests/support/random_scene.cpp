@@ -33,8 +33,6 @@ class RandomScene {
     output();
     if (draw_.chance(0.5)) scene_.set("accuracy", "precision", draw_.one_of(precisions));
     if (draw_.chance(0.3)) scene_.set("accuracy", "on_unstable", draw_.chance(0.5) ? "'stop'" : "'substep'");
-    // below the bounds that are held against a run
-    if (draw_.chance(0.2)) scene_.set("accuracy", "quiescent", draw_.chance(0.5) ? "0" : "1e-15");
     observation();
     if (draw_.chance(0.3)) scene_.set("time", "stop_on", draw_.one_of(ends));
     between_solves();

@@ -53,7 +53,7 @@ std::string other_value(const Key& key) {
   if (key.name.ends_with("every") && key.name != "checkpoint_every") return "0.5";
   if (key.name == "dt") return "0.01";
   if (key.name == "dx") return "1.2";
-  if (key.name == "tolerance" || key.name == "quiescent") return "1e-6";
+  if (key.name == "tolerance") return "1e-6";
   if (std::holds_alternative<apps::Number>(key.kind)) return key.name == "a" ? "0.25" : "1.25";
   if (std::holds_alternative<apps::Integer>(key.kind)) return "7";
   if (std::holds_alternative<apps::Pair>(key.kind)) return "[2,-3]";

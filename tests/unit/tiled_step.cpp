@@ -3,10 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cstring>
-#include <functional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -14,7 +11,6 @@
 #include "kernels/observe/probes.hpp"
 #include "kernels/tissue/monodomain_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
-#include "solver/denormals.hpp"
 #include "solver/select_model.hpp"
 #include "tests/support/allclose.hpp"
 #include "tests/support/fields.hpp"
@@ -253,136 +249,6 @@ TEST(TiledSteps, PlansCoverTheSheetAndKeepTeamsBusy) {
   EXPECT_EQ(Step::plan_tiles(space, {121, 121, 0.6}, 64 * teams, 8).rows, 121);
   EXPECT_EQ(Step::plan_sweeps(space, {121, 121, 0.6}, 64 * teams, 80),
             tissue::tiles_of(80, Step::largest_depth()));
-}
-
-// At rest but for V = 0.5 on a few nodes of each member: in a corner, or in the inside.
-template <class Real>
-Fields<Real> spots(const Sheet& at, bool corners) {
-  const auto spot = [&](double row, double column) {
-    Values V(at.size());
-    const int first_row = static_cast<int>(row * (at.rows - 4)),
-              first_column = static_cast<int>(column * (at.columns - 4));
-    for (int i = first_row; i < first_row + 4; ++i)
-      for (int j = first_column; j < first_column + 4; ++j) V[i * at.columns + j] = 0.5;
-    return V;
-  };
-  auto state = empty_state<Real>(at);
-  state.V = corners ? test::to_view<Real>(at.rows, at.columns, {spot(0, 1), spot(0.1, 0.9)})
-                    : test::to_view<Real>(at.rows, at.columns, {spot(0.4, 0.6), spot(0.5, 0.7)});
-  return state;
-}
-
-template <class View>
-bool same_bits(const View& a, const View& b) {
-  const auto left = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, a),
-             right = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, b);
-  return std::equal(left.data(), left.data() + left.size(), right.data(), right.data() + right.size(),
-                    [](auto x, auto y) { return std::memcmp(&x, &y, sizeof(x)) == 0; });
-}
-
-// Rounds of 37 steps with the active box and without it: the same bits, or with a tolerance up to a hundred
-// times that, for r and Ta go to k (1 + b) and k_Ta times V. Returns the share of the sheet that does not
-// rest before each round.
-template <class Diffusion, class Model>
-std::vector<double> active_shares(const Sheet& at, const Diffusion& diffusion, const Model& model,
-                                  bool corners, double tolerance = 0) {
-  using Real = typename Diffusion::Scalar;
-  auto state = spots<Real>(at, corners), spare = empty_state<Real>(at);
-  auto all = spots<Real>(at, corners), all_spare = empty_state<Real>(at);
-  if (!Model::has_tension) state.Ta = spare.Ta = all.Ta = all_spare.Ta = {};
-  tissue::ActiveBox<Real> active(at.grid(), tolerance, 1);
-  std::vector<double> shares;
-  for (int round = 0; round < 12; ++round) {
-    const auto box = tissue::ActiveBox<Real>(at.grid(), tolerance, 1).find(state, spare, 0, 1);
-    shares.push_back(static_cast<double>(box.rows()) * box.columns() / at.size());
-    tissue::tiled_steps(ExecutionSpace(), diffusion, model, dt, 37, state, spare, 0, {}, &active);
-    tissue::tiled_steps(ExecutionSpace(), diffusion, model, dt, 37, all, all_spare);
-    if (tolerance > 0)
-      expect_equal(state, all, at.columns, {.absolute = 100 * tolerance});
-    else
-      EXPECT_TRUE(same_bits(state.V, all.V) && same_bits(state.r, all.r) && same_bits(state.Ta, all.Ta))
-          << "after " << round + 1 << " rounds";
-  }
-  return shares;
-}
-
-template <class Real>
-void expect_the_bits_of_the_whole_sheet() {
-  const auto model = solver::make_model<Real>({}, {});
-  const tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::NoTension> without_tension{
-      model.cell, {}, model.D, model.inverse_C_m};
-  for (const Sheet& at : {Sheet{101, 71, 10}, Sheet{41, 321, 10}})
-    for (const bool corners : {true, false}) {
-      const tissue::IdentityDiffusion<Real, MemorySpace> identity(at.grid());
-      const auto conservative = loaded<Real>(at);
-      for (const auto& shares : {active_shares(at, identity, model, corners),
-                                 active_shares(at, identity, without_tension, corners),
-                                 active_shares(at, conservative, model, corners),
-                                 active_shares(at, conservative, without_tension, corners)}) {
-        EXPECT_LT(shares.front(), 0.1);
-        EXPECT_LT(shares[1], 0.9);
-        EXPECT_GT(shares.back(), shares[1]);
-      }
-    }
-}
-
-TEST(TiledSteps, LeavingOutWhatRestsChangesNoBit) {
-  if (!runs_on_host<ExecutionSpace>) GTEST_SKIP() << "a device takes the whole sheet";
-  solver::flush_denormals();  // as runs do; here and in the tests below
-  expect_the_bits_of_the_whole_sheet<double>();
-  expect_the_bits_of_the_whole_sheet<float>();
-}
-
-// Probes in the box and outside, until the front of a corner has passed the nearest.
-TEST(TiledSteps, ProbesOutsideTheActiveBoxSeeVBeforeEveryStep) {
-  if (!runs_on_host<ExecutionSpace>) GTEST_SKIP() << "a device takes the whole sheet";
-  constexpr int steps = 57;
-  const Sheet at{101, 71, 10};
-  const std::array<std::int64_t, 4> probes{0, 70, 30 * at.columns + 40, 100 * at.columns};
-  const Kokkos::View<std::int64_t*, MemorySpace> nodes("nodes", probes.size());
-  Kokkos::deep_copy(nodes,
-                    Kokkos::View<const std::int64_t*, Kokkos::HostSpace>(probes.data(), probes.size()));
-  using Record = Kokkos::View<double**, Kokkos::LayoutRight, MemorySpace>;
-  const auto record_of = [&](bool leave_out) {
-    const Record record("record", steps + 1, probes.size());
-    Kokkos::deep_copy(record, -1);
-    auto state = spots<double>(at, true), spare = empty_state<double>(at);
-    tissue::ActiveBox<double> active(at.grid(), 0, 1);
-    const auto model = solver::make_model<double>({}, {});
-    tissue::tiled_steps(
-        ExecutionSpace(), tissue::IdentityDiffusion<double, MemorySpace>(at.grid()), model, dt, steps, state,
-        spare, 1,
-        observe::ProbeRecorder<solver::Model<double>, MemorySpace>{nodes, record, {model, dt}, at.columns},
-        leave_out ? &active : nullptr);
-    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, record);
-  };
-  const auto record = record_of(true);
-  EXPECT_TRUE(same_bits(record, record_of(false)));
-  EXPECT_GT(record(steps, 2), 0);
-  EXPECT_EQ(record(steps, 3), 0);
-}
-
-// A medium that no wave crosses and that forgets in a few t.u.: the box grows, shrinks and is empty in the
-// end. Without a tolerance it would not be: where a step's change of a tiny number is denormal, the number
-// stays.
-template <class Real>
-void expect_a_sheet_that_dies() {
-  const auto model = solver::make_model<Real>({.a = 0.8, .k = 30, .eps = 20}, {.eps_below = 20});
-  const Sheet at{81, 91, 10};
-  for (const bool corners : {true, false}) {
-    const auto shares = active_shares(at, loaded<Real>(at), model, corners, 1e-30);
-    EXPECT_GT(*std::ranges::max_element(shares), shares.front());
-    EXPECT_EQ(shares.back(), 0);
-    const auto shrinks = std::ranges::adjacent_find(shares, std::greater());
-    ASSERT_NE(shrinks, shares.end());
-    EXPECT_GT(*(shrinks + 1), 0);
-  }
-}
-
-TEST(TiledSteps, ASheetThatDiesRestsInTheEnd) {
-  if (!runs_on_host<ExecutionSpace>) GTEST_SKIP() << "a device takes the whole sheet";
-  expect_a_sheet_that_dies<double>();
-  expect_a_sheet_that_dies<float>();
 }
 
 }  // namespace
