@@ -17,6 +17,7 @@
 #pragma once
 
 #include "kernels/tissue/row_update.hpp"
+#include "kernels/tissue/tile_plan.hpp"
 
 namespace myowave::tissue {
 
@@ -24,12 +25,6 @@ namespace myowave::tissue {
 template <class View>
 struct ExcitationFields {
   View V, r, Ta;
-};
-
-// Nodes that a team owns, the steps of a sweep over them, and the sweeps of one launch, more than one only
-// where a tile is a whole sheet. After an even number of sweeps the new state is where the old one was.
-struct TilePlan {
-  int rows = 1, columns = 1, depth = 1, sweeps = 1;
 };
 
 // Looks at V and r of the owned nodes before each step; nothing by default.
@@ -40,64 +35,21 @@ struct NoRecorder {
                                   const Real* /*r*/) const {}
 };
 
-// Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
-// of a front run between two barriers: a level must not read what the one below writes at the same front.
-// One thread alone has no such care, and fewer rows on the way.
-template <class ExecutionSpace>
-inline constexpr int tile_lag = runs_on_host<ExecutionSpace> ? 1 : 2;
-
 template <class ExecutionSpace, class Diffusion, class Model, class Recorder,
           int lag = tile_lag<ExecutionSpace>>
 struct TiledStep {
   using Real = typename Diffusion::Scalar;
   using MemorySpace = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, MemorySpace>;
-  using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
+  using Tiles = Tiling<ExecutionSpace, Diffusion, Model, lag>;
+  using Pitch = typename Tiles::Pitch;
+  using Tile = typename Tiles::Tile;
+  using Rings = typename Tiles::Rings;
+  using Policy = typename Tiles::Policy;
   using TeamMember = typename Policy::member_type;
-  static constexpr bool on_host = runs_on_host<ExecutionSpace>;
+  static constexpr bool on_host = Tiles::on_host;
+  static constexpr int line = Tiles::line;
   using Columns = std::conditional_t<on_host, HostColumns<Real>, TeamColumns<TeamMember>>;
-
-  // Fronts of which V is on the way, the last lag + 2, and a power of two, so that a row finds its place
-  // without a division.
-  static constexpr int V_fronts = 4;
-  static_assert(lag + 2 <= V_fronts);
-  // Scratch of a device is the fast memory of a multiprocessor; on a host it is what stays in a cache.
-  static constexpr int scratch_level = on_host ? 1 : 0;
-  // Entries of a line of the cache: rows on the way begin at one, which makes a step on a host 1.6 times as
-  // fast as rows that begin anywhere.
-  static constexpr int line = detail::line_of<Real>;
-
-  static constexpr int round_up(int columns) { return (columns + line - 1) / line * line; }
-  // Rows of r, Ta and the metric on the way.
-  KOKKOS_FUNCTION static constexpr int slots_of(int depth) {
-    int power = 1;
-    while (power < lag * (depth - 1) + (without_metric ? 1 : 2)) power *= 2;
-    return power;
-  }
-  // Wide tiles compute fewer columns twice; where the weights of edges are on the way too, a host's cache
-  // holds the rows of narrower ones only.
-  static constexpr bool without_metric = Diffusion::scratch_entries(1, 1) == 0;
-  static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
-  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real));
-  static constexpr int deepest = on_host ? 20 : 15;
-  // Entries from one scratch row to the next: the computed columns and a line at least, for the neighbours
-  // beyond the ends of both; an odd number of lines, so that rows do not fall on one another in a cache.
-  static constexpr int pitch_of(int computed) { return line * ((1 + (computed + line - 1) / line) | 1); }
-  static constexpr int most_computed(int columns, int depth) { return columns + 2 * (depth + line - 1); }
-  static constexpr int widest_pitch = pitch_of(most_computed(widest_tile, deepest));
-  // A device knows it beforehand: rows at a fixed distance need no address of their own. On a host the rows
-  // of a small sheet lie close together: they would be in more pages than a processor finds at once.
-  using Pitch = std::conditional_t<on_host, int, Constant<widest_pitch>>;
-  static constexpr int state_arrays = Model::has_tension ? 2 : 1;
-  // V, r and Ta, the metric; and a line before them.
-  KOKKOS_FUNCTION static constexpr int scratch_entries(int depth, int pitch) {
-    return line + V_fronts * array_entries<Real>(depth, pitch) +
-           state_arrays * array_entries<Real>(slots_of(depth), pitch) +
-           Diffusion::scratch_entries(slots_of(depth), pitch);
-  }
-  static constexpr std::size_t scratch_bytes(int depth, int pitch) {
-    return static_cast<std::size_t>(scratch_entries(depth, pitch)) * sizeof(Real) + detail::line_bytes;
-  }
 
   Diffusion diffusion;
   Model model;
@@ -108,57 +60,6 @@ struct TiledStep {
   ExcitationFields<View> old_state, new_state;
   int first_step;
   Recorder record;
-
-  // Eight warps go along a row of a device's tile, one column a lane; on a host a team is one thread.
-  static constexpr int warps = on_host ? 1 : 8, lanes = on_host ? 1 : 32;
-
-  // The depth up to which steps gain: on a host between 16 and 27, as long as the rows on the way stay in the
-  // MiB of an EPYC's second cache; on a device what two teams of a multiprocessor can have.
-  static int largest_depth() {
-    if constexpr (on_host) return deepest;
-    const std::size_t most = Policy::scratch_size_max(scratch_level) / 2;
-    int depth = deepest;
-    while (depth > 1 && scratch_bytes(depth, widest_pitch) > most) --depth;
-    return depth;
-  }
-
-  // What a sweep costs besides its steps, in steps: it loads rows, and its first and last steps wait for
-  // memory. On an EPYC 1.4 from a cache and up to 5 from memory.
-  static constexpr double steps_of_loads = 3;
-
-  // Tiles of at most the widest, as many rows to each as keep all teams equally busy.
-  static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
-    const int column_tiles = tiles_of(grid.columns, widest_tile);
-    const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
-    const double strips = static_cast<double>(members) * column_tiles;
-    TilePlan best{grid.rows, columns, depth};
-    double least = rows_of_a_team(space, grid, members, best);
-    for (int row_tiles = 2; grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
-      // More tiles compute more rows twice: from here on no plan is better, were it never so even.
-      if (strips * (grid.rows + row_tiles * (depth - 1)) >= least * teams_of(space)) break;
-      const TilePlan plan{tiles_of(grid.rows, row_tiles), columns, depth};
-      const double cost = rows_of_a_team(space, grid, members, plan);
-      if (cost < least) least = cost, best = plan;
-    }
-    return best;
-  }
-
-  // In how many sweeps `steps` are taken soonest: fewer load less, but where many teams share a sheet most of
-  // what deep ones compute belongs to others.
-  static int plan_sweeps(const ExecutionSpace& space, const Grid& grid, int members, int steps) {
-    const int fewest = tiles_of(steps, largest_depth());
-    if constexpr (!on_host) return fewest;
-    int best = fewest;
-    double least = 1e300;
-    for (int sweeps = fewest; sweeps <= steps; sweeps *= 2) {
-      const TilePlan plan = plan_tiles(space, grid, members, tiles_of(steps, sweeps));
-      const int columns = plan.columns + (plan.columns < grid.columns ? 2 * plan.depth : 0);
-      const double cost =
-          sweeps * (plan.depth + steps_of_loads) * columns * rows_of_a_team(space, grid, members, plan);
-      if (cost < least) least = cost, best = sweeps;
-    }
-    return best;
-  }
 
   // Launches plan.sweeps times plan.depth steps, numbered from first_step on for
   // record(columns, m, i, step, begin, end, V, r), which sees the owned columns of row i before each step.
@@ -171,37 +72,13 @@ struct TiledStep {
     const int members = static_cast<int>(old_state.V.extent(0));
     const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
               column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
-    const Pitch pitch = pitch_in(diffusion.grid, plan.columns, plan.depth);
+    const Pitch pitch = Tiles::pitch_in(diffusion.grid, plan.columns, plan.depth);
     const TiledStep step{diffusion, model,     Real(dt),  plan,       row_tiles, column_tiles,
                          pitch,     old_state, new_state, first_step, record};
-    Policy policy(space, members * row_tiles * column_tiles, warps, lanes);
-    // On a host as much for any plan, so that later ones do not allocate; on a device it is scarce.
-    const std::size_t room = on_host ? scratch_bytes(deepest, pitch_in(diffusion.grid, widest_tile, deepest))
-                                     : scratch_bytes(plan.depth, pitch);
-    policy.set_scratch_size(scratch_level, Kokkos::PerTeam(room));
+    Policy policy(space, members * row_tiles * column_tiles, Tiles::warps, Tiles::lanes);
+    policy.set_scratch_size(Tiles::scratch_level, Kokkos::PerTeam(Tiles::launch_bytes(diffusion.grid, plan)));
     Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
-
-  // Owned nodes, half open, and the columns that are computed.
-  struct Tile {
-    int member, first_row, last_row, first_column, last_column;
-    int origin;  // a multiple of `line`
-    int width;   // a multiple of `line`; those outside the sheet are computed too, on zeros
-    int inside;  // those of them inside the sheet
-  };
-
-  // What a team has on the way; every pointer is that of column `origin`. V lies by the front that took the
-  // row to its level, 0 (loaded) ... depth - 1; r, Ta and the metric by row modulo the slots.
-  struct Rings {
-    Real *V_begin, *r_begin, *metric_begin;
-    int depth, slots;
-    Pitch pitch;
-    KOKKOS_FORCEINLINE_FUNCTION Real* V(int front, int level) const {
-      return V_begin + (front & (V_fronts - 1)) * array_entries<Real>(depth, pitch) + level * pitch;
-    }
-    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const { return r_begin + slot_of(i, slots) * pitch; }
-    KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + array_entries<Real>(slots, pitch); }
-  };
 
   // The rows in memory that a front is the first to read, and those that it writes. Its loops alone would
   // wait for them, so hints to fetch them go out during the front before, some columns with each of its
@@ -238,28 +115,6 @@ struct TiledStep {
   }
 
  private:
-  // From one scratch row to the next, in tiles of `columns` owned columns.
-  static Pitch pitch_in([[maybe_unused]] const Grid& grid, [[maybe_unused]] int columns,
-                        [[maybe_unused]] int depth) {
-    if constexpr (on_host)
-      return pitch_of(Kokkos::min(grid.columns, most_computed(columns, depth)));
-    else
-      return {};
-  }
-
-  static int teams_of(const ExecutionSpace& space) {
-    return Kokkos::max(1, space.concurrency() / (warps * lanes));
-  }
-
-  // Rows of tiles that the busiest team computes in a step; of its neighbours' half of `depth` at each end,
-  // on the average.
-  static double rows_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
-                               const TilePlan& plan) {
-    const int row_tiles = tiles_of(grid.rows, plan.rows), column_tiles = tiles_of(grid.columns, plan.columns);
-    return static_cast<double>(tiles_of(members * row_tiles * column_tiles, teams_of(space))) *
-           (plan.rows + (row_tiles > 1 ? plan.depth - 1 : 0));
-  }
-
   template <class Metric>
   KOKKOS_FORCEINLINE_FUNCTION void go_up(const TeamMember& team, const Tile& tile, const Rings& rings,
                                          const Metric& metric, const Sweep& sweep) const {
@@ -267,7 +122,7 @@ struct TiledStep {
     const Columns columns = columns_of(team);
     const int first = Kokkos::max(0, tile.first_row - depth);
     const int top = Kokkos::min(rows, tile.last_row + depth);
-    const int share = round_up(tiles_of(tile.inside, depth));  // of the columns, to a level
+    const int share = Tiles::round_up(tiles_of(tile.inside, depth));  // of the columns, to a level
     metric.begin(Kokkos::max(0, tile.first_row - depth + 1));
     for (int front = first; front < tile.last_row + lag * depth; ++front) {
       [[maybe_unused]] const RowsToCome next = rows_to_come(tile, sweep, metric, front + 1);
@@ -325,15 +180,16 @@ struct TiledStep {
   // All zero: what comes of entries outside the sheet, and beside the computed columns, is finite and never
   // used.
   KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team) const {
-    const int depth = plan.depth, slots = slots_of(depth), entries = scratch_entries(depth, pitch);
-    constexpr int fast = scratch_level;  // taken by reference, which a device can't of a static member
+    const int depth = plan.depth, slots = Tiles::slots_of(depth),
+              entries = Tiles::scratch_entries(depth, pitch);
+    constexpr int fast = Tiles::scratch_level;  // taken by reference, which a device can't of a static member
     auto* const scratch = static_cast<Real*>(
         team.team_scratch(fast).get_shmem_aligned(entries * sizeof(Real), detail::line_bytes));
     columns_of(team).each(0, entries, [=](int n) { scratch[n] = 0; });
     team.team_barrier();
     Real* const V = scratch + line;
-    Real* const r = V + V_fronts * array_entries<Real>(depth, pitch);
-    return {V, r, r + state_arrays * array_entries<Real>(slots, pitch), depth, slots, pitch};
+    Real* const r = V + Tiles::V_fronts * array_entries<Real>(depth, pitch);
+    return {V, r, r + Tiles::state_arrays * array_entries<Real>(slots, pitch), depth, slots, pitch};
   }
 
   // The neighbours outside the sheet, of a row on the way: V(-1) = V(1), V(n) = V(n - 2).
@@ -419,11 +275,12 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
                  int steps, ExcitationFields<View>& state, ExcitationFields<View>& spare, int first_step = 0,
                  const Recorder& record = {}) {
   using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
+  using Tiles = typename Step::Tiles;
   const int members = static_cast<int>(state.V.extent(0));
-  const int sweeps = Step::plan_sweeps(space, diffusion.grid, members, steps);
+  const int sweeps = Tiles::plan_sweeps(space, diffusion.grid, members, steps);
   for (int n = 0, done = 0; n < sweeps;) {
     const int depth = (steps - done) / (sweeps - n);
-    TilePlan plan = Step::plan_tiles(space, diffusion.grid, members, depth);
+    TilePlan plan = Tiles::plan_tiles(space, diffusion.grid, members, depth);
     const bool whole_sheets = plan.rows == diffusion.grid.rows && plan.columns == diffusion.grid.columns;
     const int deeper = (steps - done) % (sweeps - n);  // of those to come are one step deeper
     if (whole_sheets) plan.sweeps = sweeps - n - deeper;

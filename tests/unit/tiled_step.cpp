@@ -238,17 +238,17 @@ TEST(TiledSteps, PlansCoverTheSheetAndKeepTeamsBusy) {
   const ExecutionSpace space;
   const int teams = space.concurrency();
   for (const int n : {2, 121, 251, 1024, 4091}) {
-    const auto plan = Step::plan_tiles(space, {n, n, 0.6}, 1, 8);
-    EXPECT_LE(plan.columns, Step::widest_tile);
-    EXPECT_TRUE(plan.columns == n || plan.columns % Step::line == 0);
+    const auto plan = Step::Tiles::plan_tiles(space, {n, n, 0.6}, 1, 8);
+    EXPECT_LE(plan.columns, Step::Tiles::widest_tile);
+    EXPECT_TRUE(plan.columns == n || plan.columns % Step::Tiles::line == 0);
     EXPECT_EQ(plan.depth, 8);
     const int tiles = tissue::tiles_of(n, plan.rows) * tissue::tiles_of(n, plan.columns);
     EXPECT_GE(tiles, n >= 16 * teams ? teams : 1);
   }
   // Many members are parallel enough: no rows are computed twice, and no more sweeps than needed.
-  EXPECT_EQ(Step::plan_tiles(space, {121, 121, 0.6}, 64 * teams, 8).rows, 121);
-  EXPECT_EQ(Step::plan_sweeps(space, {121, 121, 0.6}, 64 * teams, 80),
-            tissue::tiles_of(80, Step::largest_depth()));
+  EXPECT_EQ(Step::Tiles::plan_tiles(space, {121, 121, 0.6}, 64 * teams, 8).rows, 121);
+  EXPECT_EQ(Step::Tiles::plan_sweeps(space, {121, 121, 0.6}, 64 * teams, 80),
+            tissue::tiles_of(80, Step::Tiles::largest_depth()));
 }
 
 }  // namespace

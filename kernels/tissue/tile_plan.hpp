@@ -1,0 +1,176 @@
+// How a sheet is divided for launches of several steps (tiled_step.hpp): tiles, sweeps, and the scratch
+// memory of a tile.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "kernels/base/row_loop.hpp"
+#include "kernels/tissue/stencil_rows.hpp"
+
+namespace myowave::tissue {
+
+// Nodes that a team owns, the steps of a sweep over them, and the sweeps of one launch, more than one only
+// where a tile is a whole sheet. After an even number of sweeps the new state is where the old one was.
+struct TilePlan {
+  int rows = 1, columns = 1, depth = 1, sweeps = 1;
+};
+
+// Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
+// of a front run between two barriers: a level must not read what the one below writes at the same front.
+// One thread alone has no such care, and fewer rows on the way.
+template <class ExecutionSpace>
+inline constexpr int tile_lag = runs_on_host<ExecutionSpace> ? 1 : 2;
+
+template <class ExecutionSpace, class Diffusion, class Model, int lag = tile_lag<ExecutionSpace>>
+struct Tiling {
+  using Real = typename Diffusion::Scalar;
+  using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
+  static constexpr bool on_host = runs_on_host<ExecutionSpace>;
+
+  // Fronts of which V is on the way, the last lag + 2, and a power of two, so that a row finds its place
+  // without a division.
+  static constexpr int V_fronts = 4;
+  static_assert(lag + 2 <= V_fronts);
+  // Scratch of a device is the fast memory of a multiprocessor; on a host it is what stays in a cache.
+  static constexpr int scratch_level = on_host ? 1 : 0;
+  // Entries of a line of the cache: rows on the way begin at one, which makes a step on a host 1.6 times as
+  // fast as rows that begin anywhere.
+  static constexpr int line = detail::line_of<Real>;
+
+  static constexpr int round_up(int columns) { return (columns + line - 1) / line * line; }
+  // Rows of r, Ta and the metric on the way.
+  KOKKOS_FUNCTION static constexpr int slots_of(int depth) {
+    int power = 1;
+    while (power < lag * (depth - 1) + (without_metric ? 1 : 2)) power *= 2;
+    return power;
+  }
+  // Wide tiles compute fewer columns twice; where the weights of edges are on the way too, a host's cache
+  // holds the rows of narrower ones only.
+  static constexpr bool without_metric = Diffusion::scratch_entries(1, 1) == 0;
+  static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
+  static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real));
+  static constexpr int deepest = on_host ? 20 : 15;
+  // Entries from one scratch row to the next: the computed columns and a line at least, for the neighbours
+  // beyond the ends of both; an odd number of lines, so that rows do not fall on one another in a cache.
+  static constexpr int pitch_of(int computed) { return line * ((1 + (computed + line - 1) / line) | 1); }
+  static constexpr int most_computed(int columns, int depth) { return columns + 2 * (depth + line - 1); }
+  static constexpr int widest_pitch = pitch_of(most_computed(widest_tile, deepest));
+  // A device knows it beforehand: rows at a fixed distance need no address of their own. On a host the rows
+  // of a small sheet lie close together: they would be in more pages than a processor finds at once.
+  using Pitch = std::conditional_t<on_host, int, Constant<widest_pitch>>;
+  static constexpr int state_arrays = Model::has_tension ? 2 : 1;
+  // V, r and Ta, the metric; and a line before them.
+  KOKKOS_FUNCTION static constexpr int scratch_entries(int depth, int pitch) {
+    return line + V_fronts * array_entries<Real>(depth, pitch) +
+           state_arrays * array_entries<Real>(slots_of(depth), pitch) +
+           Diffusion::scratch_entries(slots_of(depth), pitch);
+  }
+  static constexpr std::size_t scratch_bytes(int depth, int pitch) {
+    return static_cast<std::size_t>(scratch_entries(depth, pitch)) * sizeof(Real) + detail::line_bytes;
+  }
+
+  // Eight warps go along a row of a device's tile, one column a lane; on a host a team is one thread.
+  static constexpr int warps = on_host ? 1 : 8, lanes = on_host ? 1 : 32;
+
+  // Owned nodes, half open, and the columns that are computed.
+  struct Tile {
+    int member, first_row, last_row, first_column, last_column;
+    int origin;  // a multiple of `line`
+    int width;   // a multiple of `line`; those outside the sheet are computed too, on zeros
+    int inside;  // those of them inside the sheet
+  };
+
+  // What a team has on the way; every pointer is that of column `origin`. V lies by the front that took the
+  // row to its level, 0 (loaded) ... depth - 1; r, Ta and the metric by row modulo the slots.
+  struct Rings {
+    Real *V_begin, *r_begin, *metric_begin;
+    int depth, slots;
+    Pitch pitch;
+    KOKKOS_FORCEINLINE_FUNCTION Real* V(int front, int level) const {
+      return V_begin + (front & (V_fronts - 1)) * array_entries<Real>(depth, pitch) + level * pitch;
+    }
+    KOKKOS_FORCEINLINE_FUNCTION Real* r(int i) const { return r_begin + slot_of(i, slots) * pitch; }
+    KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + array_entries<Real>(slots, pitch); }
+  };
+
+  // The depth up to which steps gain: on a host between 16 and 27, as long as the rows on the way stay in the
+  // MiB of an EPYC's second cache; on a device what two teams of a multiprocessor can have.
+  static int largest_depth() {
+    if constexpr (on_host) return deepest;
+    const std::size_t most = Policy::scratch_size_max(scratch_level) / 2;
+    int depth = deepest;
+    while (depth > 1 && scratch_bytes(depth, widest_pitch) > most) --depth;
+    return depth;
+  }
+
+  // What a sweep costs besides its steps, in steps: it loads rows, and its first and last steps wait for
+  // memory. On an EPYC 1.4 from a cache and up to 5 from memory.
+  static constexpr double steps_of_loads = 3;
+
+  // Tiles of at most the widest, as many rows to each as keep all teams equally busy.
+  static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
+    const int column_tiles = tiles_of(grid.columns, widest_tile);
+    const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
+    const double strips = static_cast<double>(members) * column_tiles;
+    TilePlan best{grid.rows, columns, depth};
+    double least = rows_of_a_team(space, grid, members, best);
+    for (int row_tiles = 2; grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
+      // More tiles only add rows that are computed twice; even perfect balance cannot win.
+      if (strips * (grid.rows + row_tiles * (depth - 1)) >= least * teams_of(space)) break;
+      const TilePlan plan{tiles_of(grid.rows, row_tiles), columns, depth};
+      const double cost = rows_of_a_team(space, grid, members, plan);
+      if (cost < least) least = cost, best = plan;
+    }
+    return best;
+  }
+
+  // The number of sweeps in which `steps` take the least time: fewer sweeps load less, but where many teams
+  // share a sheet most nodes of a deep tile belong to its neighbours.
+  static int plan_sweeps(const ExecutionSpace& space, const Grid& grid, int members, int steps) {
+    const int fewest = tiles_of(steps, largest_depth());
+    if constexpr (!on_host) return fewest;
+    int best = fewest;
+    double least = 1e300;
+    for (int sweeps = fewest; sweeps <= steps; sweeps *= 2) {
+      const TilePlan plan = plan_tiles(space, grid, members, tiles_of(steps, sweeps));
+      const int columns = plan.columns + (plan.columns < grid.columns ? 2 * plan.depth : 0);
+      const double cost =
+          sweeps * (plan.depth + steps_of_loads) * columns * rows_of_a_team(space, grid, members, plan);
+      if (cost < least) least = cost, best = sweeps;
+    }
+    return best;
+  }
+
+  // Entries from one scratch row to the next, in tiles of `columns` owned columns.
+  static Pitch pitch_in([[maybe_unused]] const Grid& grid, [[maybe_unused]] int columns,
+                        [[maybe_unused]] int depth) {
+    if constexpr (on_host)
+      return pitch_of(Kokkos::min(grid.columns, most_computed(columns, depth)));
+    else
+      return {};
+  }
+
+  // Scratch memory of a team. On a host as much for any plan, so that later ones do not allocate; on a device
+  // it is scarce.
+  static std::size_t launch_bytes(const Grid& grid, const TilePlan& plan) {
+    if constexpr (on_host) return scratch_bytes(deepest, pitch_in(grid, widest_tile, deepest));
+    return scratch_bytes(plan.depth, pitch_in(grid, plan.columns, plan.depth));
+  }
+
+ private:
+  static int teams_of(const ExecutionSpace& space) {
+    return Kokkos::max(1, space.concurrency() / (warps * lanes));
+  }
+
+  // Rows of tiles that the busiest team computes in a step; of its neighbours' half of `depth` at each end,
+  // on the average.
+  static double rows_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
+                               const TilePlan& plan) {
+    const int row_tiles = tiles_of(grid.rows, plan.rows), column_tiles = tiles_of(grid.columns, plan.columns);
+    return static_cast<double>(tiles_of(members * row_tiles * column_tiles, teams_of(space))) *
+           (plan.rows + (row_tiles > 1 ? plan.depth - 1 : 0));
+  }
+};
+
+}  // namespace myowave::tissue
