@@ -52,7 +52,7 @@ void time_coupled(benchmark::State& state, int n, int interval, int steps) {
       }
       Kokkos::fence("myowave::bench::after");
     }
-    if (const auto fault = sheet->find_fault(steps * dt, dt)) throw solver::NumericalFailure(*fault);
+    if (const auto problem = sheet->check_state(steps * dt, dt)) throw solver::NumericalFailure(*problem);
     state.counters["tips"] = static_cast<double>(sheet->find_tips(steps * dt).tips.size());
   } catch (const solver::NumericalFailure& failure) {
     fail(state, failure.what());

@@ -1,5 +1,5 @@
 // What a run looks at between its steps:
-//   observe / tips | finite_check | probes | activation / float64|float32 / n     observe / areas / elements
+//   observe / tips | state_check | probes | activation / float64|float32 / n     observe / areas / elements
 //   a side
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "bench/suite.hpp"
 #include "kernels/observe/activation.hpp"
 #include "kernels/observe/area_change.hpp"
-#include "kernels/observe/finite_check.hpp"
 #include "kernels/observe/phase_singularity.hpp"
 #include "kernels/observe/probes.hpp"
+#include "kernels/observe/state_check.hpp"
 #include "tests/support/reference_excitation.hpp"
 
 namespace myowave::bench {
@@ -63,16 +63,17 @@ void time_tips(benchmark::State& state, const Suite& suite, int n) {
 }
 
 template <class Real>
-void time_finite_check(benchmark::State& state, const Suite& suite, int n) {
+void time_state_check(benchmark::State& state, const Suite& suite, int n) {
   const Sheet<Real> sheet(n);
   const double size = static_cast<double>(n) * n;
-  long first = 0;
+  observe::InspectedState found;
   const double seconds = measure(state, batch_of(size), [&] {
-    first = observe::first_non_finite(ExecutionSpace(), sheet.V, sheet.r, sheet.Ta);
+    found = observe::inspect_state(ExecutionSpace(), sheet.V, sheet.r, sheet.Ta);
   });
-  report(state, suite, seconds, "nodes_per_s", size, finite_check_traffic<Real>(),
+  report(state, suite, seconds, "nodes_per_s", size, state_check_traffic<Real>(),
          suite.peak_flops_per_s<Real>());
-  if (first != -1) fail(state, fmt::format("node {} passes for not finite", first));
+  if (found.first_non_finite != -1)
+    fail(state, fmt::format("node {} passes for not finite", found.first_non_finite));
 }
 
 template <class Real>
@@ -139,7 +140,7 @@ void register_rows(const Suite& suite) {
       return fmt::format("observe/{}/{}/{}", name, precision_name<Real>, n);
     };
     add_row(row("tips"), [=](benchmark::State& state) { time_tips<Real>(state, suite, n); });
-    add_row(row("finite_check"), [=](benchmark::State& state) { time_finite_check<Real>(state, suite, n); });
+    add_row(row("state_check"), [=](benchmark::State& state) { time_state_check<Real>(state, suite, n); });
     add_row(row("activation"), [=](benchmark::State& state) { time_activation<Real>(state, suite, n); });
     add_row(row("probes"), [=](benchmark::State& state) { time_probes<Real>(state, n); });
   }

@@ -68,7 +68,7 @@ void time_interval(benchmark::State& state, const solver::Scene& scene) {
       step += interval;
       if (scene.mechanics) sheet.solve_mechanics(static_cast<double>(step) * dt);
     });
-    if (const auto fault = sheet.find_fault(static_cast<double>(step) * dt, dt)) fail(state, *fault);
+    if (const auto problem = sheet.check_state(static_cast<double>(step) * dt, dt)) fail(state, *problem);
   } catch (const solver::NumericalFailure& failure) {
     fail(state, failure.what());
     return;

@@ -16,7 +16,7 @@
 #include "solver/error.hpp"
 #include "solver/mirror.hpp"
 #include "solver/rhythm.hpp"
-#include "solver/state_fault.hpp"
+#include "solver/state_check.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -351,7 +351,7 @@ void Electromechanics<ExecutionSpace, Real>::go_back() {
 }
 
 template <class ExecutionSpace, class Real>
-std::optional<std::string> Electromechanics<ExecutionSpace, Real>::find_fault(double t, double dt) {
+std::optional<std::string> Electromechanics<ExecutionSpace, Real>::check_state(double t, double dt) {
   const Timer timer(phases_->observe);
   const auto growing_noise = [&] {
     upload_stimuli(schedule_.active(t));
@@ -364,7 +364,8 @@ std::optional<std::string> Electromechanics<ExecutionSpace, Real>::find_fault(do
         },
         form_);
   };
-  return find_state_fault(space_, WatchedState<View>{state_, t}, clean_.with_margin(scene_), growing_noise);
+  return solver::check_state(space_, WatchedState<View>{state_, t}, clean_.with_margin(scene_),
+                             growing_noise);
 }
 
 template <class ExecutionSpace, class Real>

@@ -72,10 +72,10 @@ class Electromechanics {
   void keep();
   void go_back();
 
-  // Why the state is none of a clean run, with time, node and values: V, r or Ta is not finite, V or r is
-  // out of range, or V alternates at the grid's scale and goes on so in the next step. Empty where it may
-  // be one. dt: of the steps that led here; 0: none did.
-  std::optional<std::string> find_fault(double t, double dt);
+  // Describes the first problem found in the state, with time, node and values: V, r or Ta is not finite, V
+  // or r is out of range, or V alternates at the grid's scale and keeps doing so in the next step. Empty for
+  // a valid state. dt: of the steps that led here; 0: none did.
+  std::optional<std::string> check_state(double t, double dt);
 
   // kPa, of the Gauss points at the last solve.
   double largest_tension() const;

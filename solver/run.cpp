@@ -101,7 +101,7 @@ class Stage {
     kept_ = step_;
     try {
       if (!saved) {
-        require_no_fault(sheet.find_fault(0, 0));
+        require_valid(sheet.check_state(0, 0));
         arrive(sheet);
       }
       advance(sheet);
@@ -119,7 +119,7 @@ class Stage {
   // But for the sheet.
   template <class Archive>
   void state(Archive& archive) {
-    archive(step_, schedule_.last, substeps_, substepped_steps_, largest_substeps_, last_fault_,
+    archive(step_, schedule_.last, substeps_, substepped_steps_, largest_substeps_, last_problem_,
             warned_of_tension_, warned_of_ellipticity_, tips_, observers_, summary_.phases,
             summary_.mechanics, whole_.warnings, whole_.substepped_steps, whole_.largest_substeps,
             whole_.precondition_s);
@@ -185,10 +185,10 @@ class Stage {
     if (scene_.on_unstable == OnUnstable::substep) return substep_to(sheet, next);
     sheet.advance(step_, next - step_);
     step_ = next;
-    if (schedule_.due(step_, schedule_.check)) require_no_fault(sheet.find_fault(t(), scene_.time.dt));
+    if (schedule_.due(step_, schedule_.check)) require_valid(sheet.check_state(t(), scene_.time.dt));
   }
 
-  // In parts where dt is past the bound of the metric. Where the state is faulty then, once more from the
+  // In parts where dt is past the bound of the metric. Where the state is invalid then, once more from the
   // same start in twice as many; the next stretches try with fewer again.
   void substep_to(Sheet& sheet, std::int64_t next) {
     const double dt = scene_.time.dt;
@@ -201,11 +201,11 @@ class Stage {
                         "the metric is "
                         "{:.3g}{}. {}",
                         t(), most_substeps, dt, sheet.stable_dt(),
-                        last_fault_.empty() ? "" : "; at last " + last_fault_, what_to_do));
+                        last_problem_.empty() ? "" : "; at last " + last_problem_, what_to_do));
       sheet.advance(step_, next - step_, parts);
-      const auto fault = sheet.find_fault(static_cast<double>(next) * dt, dt / parts);
-      if (!fault) break;
-      last_fault_ = *fault;
+      const auto problem = sheet.check_state(static_cast<double>(next) * dt, dt / parts);
+      if (!problem) break;
+      last_problem_ = *problem;
       sheet.go_back();
     }
     if (parts > 1) {
@@ -213,15 +213,15 @@ class Stage {
       largest_substeps_ = std::max(largest_substeps_, parts);
     }
     substeps_ = parts;
-    last_fault_.clear();
+    last_problem_.clear();
     step_ = next;
   }
 
-  void require_no_fault(const std::optional<std::string>& fault) const {
-    if (fault)
+  void require_valid(const std::optional<std::string>& problem) const {
+    if (problem)
       throw NumericalFailure(
           fmt::format("{}. {}; accuracy.on_unstable = \"substep\" takes smaller steps where they are needed",
-                      *fault, what_to_do));
+                      *problem, what_to_do));
   }
 
   void look_at_tension(const Sheet& sheet) {
@@ -278,7 +278,7 @@ class Stage {
       if (watched) observers_.watch(t(), tips_, activity.largest_V, sheet.more_stimuli(t()));
     });
     if (watched && observers_.wants_end() && step_ != schedule_.last) {
-      require_no_fault(sheet.find_fault(t(), scene_.time.dt));  // as at any end
+      require_valid(sheet.check_state(t(), scene_.time.dt));  // as at any end
       schedule_.last = step_;
     }
     show_ended_trajectories();
@@ -369,7 +369,7 @@ class Stage {
   int substeps_ = 1;  // of the last stretch
   std::int64_t substepped_steps_ = 0;
   int largest_substeps_ = 1;
-  std::string last_fault_;
+  std::string last_problem_;
   bool warned_of_tension_ = false, warned_of_ellipticity_ = false;
   int tips_ = 0;
   std::int64_t kept_ = 0;   // step of the last checkpoint

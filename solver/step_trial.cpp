@@ -4,12 +4,11 @@
 #include <cmath>
 #include <type_traits>
 
-#include "kernels/observe/finite_check.hpp"
-#include "kernels/observe/grid_noise.hpp"
+#include "kernels/observe/state_check.hpp"
 #include "solver/run.hpp"
 #include "solver/select_model.hpp"
 #include "solver/stability.hpp"
-#include "solver/state_fault.hpp"
+#include "solver/state_check.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -61,9 +60,9 @@ class Trial {
     const int looks = static_cast<int>(std::ceil(duration / (per_look * dt)));
     for (int look = 1; look <= looks && !report.blown_up; ++look) {
       advance(dt, per_look);
-      const auto seen = observe::grid_noise(space_, state_.V);
-      report.told = report.told || finds_fault(range, dt);
-      report.blown_up = !finite() || std::max(-seen.min_V, seen.max_V) > beyond;
+      const auto seen = observe::inspect_state(space_, state_.V, state_.r, state_.Ta);
+      report.told = report.told || is_invalid(range, dt);
+      report.blown_up = seen.first_non_finite >= 0 || std::max(-seen.min_V, seen.max_V) > beyond;
       if (look * per_look * dt < first_look || report.blown_up) continue;
       report.noise = std::max(report.noise, seen.noise);
       report.min_V = std::min(report.min_V, seen.min_V);
@@ -105,7 +104,7 @@ class Trial {
         form_);
   }
 
-  bool finds_fault(const CleanRange& range, double dt) const {
+  bool is_invalid(const CleanRange& range, double dt) const {
     const auto growing_noise = [&] {
       return std::visit(
           [&](const auto& form) {
@@ -115,10 +114,8 @@ class Trial {
           },
           form_);
     };
-    return find_state_fault(space_, WatchedState<View>{state_, 0}, range, growing_noise).has_value();
+    return check_state(space_, WatchedState<View>{state_, 0}, range, growing_noise).has_value();
   }
-
-  bool finite() const { return observe::first_non_finite(space_, state_.V, state_.r, state_.r) < 0; }
 
   Space space_;
   tissue::Grid grid_;

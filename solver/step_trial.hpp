@@ -23,9 +23,9 @@ enum class StepOutcome { right, wrong, blown_up };
 
 struct StepReport {
   bool blown_up = false;  // V not finite or beyond +-10
-  double noise = 0;       // largest at any look, see kernels/observe/grid_noise.hpp
+  double noise = 0;       // largest at any look, see kernels/observe/state_check.hpp
   double min_V = 0, max_V = 0;
-  bool told = false;  // the watch of a run (solver/state_fault.hpp) finds fault at some look
+  bool told = false;  // the check of a run (solver/state_check.hpp) finds an invalid state
 
   // Wrong: finite, but with more grid-scale noise than the steepest front makes, or a V above 1.
   StepOutcome outcome() const;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "kernels/observe/grid_noise.hpp"
+#include "kernels/observe/state_check.hpp"
 #include "solver/electromechanics.hpp"
 #include "solver/error.hpp"
 #include "solver/run.hpp"
@@ -63,9 +63,9 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
   return std::sqrt(difference / norm);
 }
 
-// Steps that no run would take: the sheet asks nobody. The fault is looked for every 2 t.u.
+// Steps that no run would take: the sheet asks nobody. The state is checked every 2 t.u.
 struct Unguarded {
-  std::optional<std::string> fault;
+  std::optional<std::string> problem;
   double t = 0, largest_noise = 0, largest_V = 0;  // noise and V from t = 2 on
 };
 
@@ -84,15 +84,15 @@ Unguarded step_unguarded(const Scene& scene) {
                                               phases, statistics);
   const auto stretch = static_cast<std::int64_t>(std::ceil(2 / scene.time.dt));
   Unguarded seen;
-  for (std::int64_t step = 0; seen.t < scene.time.t_end && !seen.fault;) {
+  for (std::int64_t step = 0; seen.t < scene.time.t_end && !seen.problem;) {
     sheet.advance(step, stretch);
     step += stretch;
     seen.t = static_cast<double>(step) * scene.time.dt;
-    seen.fault = sheet.find_fault(seen.t, scene.time.dt);
+    seen.problem = sheet.check_state(seen.t, scene.time.dt);
     const auto state = sheet.download();
     EnsembleField<double, Kokkos::HostSpace> V("V", 1, state.rows, state.columns);
     std::copy(state.V.begin(), state.V.end(), V.data());
-    const auto range = observe::grid_noise(Kokkos::DefaultHostExecutionSpace(), V);
+    const auto range = observe::inspect_state(Kokkos::DefaultHostExecutionSpace(), V, V, V);
     seen.largest_noise = std::max(seen.largest_noise, range.noise);
     seen.largest_V = std::max(seen.largest_V, range.max_V);
   }
@@ -104,11 +104,11 @@ TEST(Instability, BelowTheBoundTheSheetIsRight) {
   for (const double dt : {0.02, 0.06, 0.0675}) {
     const Unguarded seen = step_unguarded(spiral(61, dt, 40));
     record(dt, seen);
-    EXPECT_FALSE(seen.fault) << "dt = " << dt << ": " << *seen.fault;
+    EXPECT_FALSE(seen.problem) << "dt = " << dt << ": " << *seen.problem;
     EXPECT_LT(seen.largest_noise, 0.006) << "dt = " << dt;
     EXPECT_LT(seen.largest_V, 1) << "dt = " << dt;
   }
-  EXPECT_FALSE(step_unguarded<float>(spiral(61, 0.06, 40)).fault);
+  EXPECT_FALSE(step_unguarded<float>(spiral(61, 0.06, 40)).problem);
 }
 
 TEST(Instability, PastItTheSheetIsFiniteAndWrongAndIsFound) {
@@ -116,10 +116,10 @@ TEST(Instability, PastItTheSheetIsFiniteAndWrongAndIsFound) {
     for (const bool single : {false, true}) {
       const Scene scene = spiral(61, dt, 20);
       const Unguarded seen = single ? step_unguarded<float>(scene) : step_unguarded(scene);
-      ASSERT_TRUE(seen.fault) << "dt = " << dt;
+      ASSERT_TRUE(seen.problem) << "dt = " << dt;
       if (!single) record(dt, seen);
-      EXPECT_THAT(*seen.fault, AllOf(HasSubstr("t = "), HasSubstr("node (row "), HasSubstr("V = ")));
-      EXPECT_THAT(*seen.fault,
+      EXPECT_THAT(*seen.problem, AllOf(HasSubstr("t = "), HasSubstr("node (row "), HasSubstr("V = ")));
+      EXPECT_THAT(*seen.problem,
                   ::testing::AnyOf(HasSubstr("V alternates by 0."), HasSubstr("V is outside of")));
       EXPECT_TRUE(std::isfinite(seen.largest_V));
       EXPECT_GT(seen.largest_noise, 0.03);
@@ -129,8 +129,8 @@ TEST(Instability, PastItTheSheetIsFiniteAndWrongAndIsFound) {
 
 TEST(Instability, FurtherOnItBlowsUpAndIsFound) {
   const Unguarded seen = step_unguarded(spiral(61, 0.15, 20));
-  ASSERT_TRUE(seen.fault);
-  EXPECT_THAT(*seen.fault, HasSubstr("is not finite at node (row "));
+  ASSERT_TRUE(seen.problem);
+  EXPECT_THAT(*seen.problem, HasSubstr("is not finite at node (row "));
 }
 
 // Strong tension and a load under which elements shrink to a fifth of their area: no alarm either.
@@ -156,7 +156,7 @@ TEST(Instability, FrontsThatTheGridResolvesBadlyAreNoFault) {
     scene.time.dt = 0.95 * solver::largest_stable_dt(scene, 2);
     const Unguarded seen = step_unguarded(scene);
     record(scene.time.dt, seen);
-    EXPECT_FALSE(seen.fault) << "D = " << D << ": " << *seen.fault;
+    EXPECT_FALSE(seen.problem) << "D = " << D << ": " << *seen.problem;
     EXPECT_GT(seen.largest_noise, solver::largest_clean_noise) << "D = " << D;
   }
 }

@@ -1,9 +1,10 @@
-#include "kernels/observe/grid_noise.hpp"
+#include "kernels/observe/state_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tests/support/fields.hpp"
@@ -24,9 +25,11 @@ Values field(int rows, int columns, const Function& value) {
 
 double checkerboard(int i, int j) { return (i + j) % 2 == 0 ? 1 : -1; }
 
+// Of V, with any r and no Ta.
 template <class Real = double>
-FieldRange range(int rows, int columns, const std::vector<Values>& members) {
-  return grid_noise(ExecutionSpace(), test::to_view<Real>(rows, columns, members));
+InspectedState range(int rows, int columns, const std::vector<Values>& members) {
+  const auto V = test::to_view<Real>(rows, columns, members);
+  return inspect_state(ExecutionSpace(), V, V, {});
 }
 
 // The plain loop: nothing of the kernel, mirrored indices written out.
@@ -51,7 +54,7 @@ double plain_noise(int rows, int columns, const Values& V) {
 TEST(GridNoise, OfACheckerboardIsItsAmplitude) {
   for (const auto& [rows, columns] : {std::pair{2, 2}, {2, 7}, {3, 2}, {3, 3}, {13, 37}}) {
     const auto V = field(rows, columns, [](int i, int j) { return 0.4 + 0.25 * checkerboard(i, j); });
-    const FieldRange found = range(rows, columns, {V});
+    const InspectedState found = range(rows, columns, {V});
     EXPECT_DOUBLE_EQ(found.noise, 0.25) << rows << " x " << columns;
     EXPECT_DOUBLE_EQ(found.min_V, 0.15);
     EXPECT_DOUBLE_EQ(found.max_V, 0.65);
@@ -88,7 +91,8 @@ TEST(GridNoise, EqualsThePlainLoopOnRoughFieldsOfSeveralMembers) {
     std::vector<Values> members;
     for (unsigned seed = 0; seed < 3; ++seed)
       members.push_back(test::random_field(rows * columns, -1.5, 2.5, seed));
-    const FieldRange found = range(rows, columns, members), in_floats = range<float>(rows, columns, members);
+    const InspectedState found = range(rows, columns, members),
+                         in_floats = range<float>(rows, columns, members);
     double noise = 0, low = 9, high = -9;
     for (const auto& V : members) {
       noise = std::max(noise, plain_noise(rows, columns, V));
@@ -130,6 +134,81 @@ TEST(GrowingNoise, NamesItsNode) {
                                    test::to_view<float>(rows, columns, rate), 1, 0.1);
   EXPECT_NEAR(found.noise, 0.25, 1e-6);
   EXPECT_EQ(found.node, rows * columns + node);
+}
+
+TEST(InspectedState, FindsTheSmallestRWhereverItIs) {
+  for (const auto& [rows, columns] : {std::pair{2, 2}, {2, 3}, {13, 37}})
+    for (const int node : {0, rows * columns / 2, rows * columns - 1}) {
+      std::vector<Values> r{test::random_field(rows * columns, 1, 2, 1),
+                            test::random_field(rows * columns, 1, 2, 2)};
+      const auto V = r;
+      r[1][node] = 0.25;
+      const auto smallest = [&]<class Real>(Real) {
+        return inspect_state(ExecutionSpace(), test::to_view<Real>(rows, columns, V),
+                             test::to_view<Real>(rows, columns, r), {})
+            .min_r;
+      };
+      EXPECT_EQ(smallest(double{}), 0.25);
+      EXPECT_EQ(smallest(float{}), 0.25);
+    }
+}
+
+constexpr int rows = 13, columns = 37;
+
+struct Bad {
+  int variable;  // V, r, Ta
+  int member, i, j;
+  double value;
+};
+
+template <class Real>
+long first_bad(std::initializer_list<Bad> entries, double elsewhere = 0.5) {
+  std::vector<Values> fields[3];
+  for (auto& field : fields) field.assign(2, Values(rows * columns, elsewhere));
+  for (const Bad& b : entries) fields[b.variable][b.member][b.i * columns + b.j] = b.value;
+  const auto view = [&](int k) { return test::to_view<Real>(rows, columns, fields[k]); };
+  return inspect_state(ExecutionSpace(), view(0), view(1), view(2)).first_non_finite;
+}
+
+long index(int member, int i, int j) { return (long(member) * rows + i) * columns + j; }
+
+template <class T>
+class FiniteCheck : public ::testing::Test {};
+using Precisions = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(FiniteCheck, Precisions);
+
+TYPED_TEST(FiniteCheck, AllFinite) {
+  EXPECT_EQ(first_bad<TypeParam>({}), -1);
+  EXPECT_EQ(first_bad<TypeParam>({}, std::numeric_limits<TypeParam>::denorm_min()), -1);
+}
+
+TYPED_TEST(FiniteCheck, HugeValuesAreFinite) {
+  // although the sum of three is not
+  EXPECT_EQ(first_bad<TypeParam>({}, std::numeric_limits<TypeParam>::max()), -1);
+  EXPECT_EQ(first_bad<TypeParam>({}, std::numeric_limits<TypeParam>::lowest()), -1);
+}
+
+TYPED_TEST(FiniteCheck, EveryVariableAndKind) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : {inf, -inf, nan})
+    for (int variable = 0; variable < 3; ++variable)
+      for (const auto& [i, j] : {std::pair{0, 0}, {rows - 1, columns - 1}, {7, 0}, {0, columns - 1}, {5, 17}})
+        for (int member = 0; member < 2; ++member)
+          EXPECT_EQ(first_bad<TypeParam>({{variable, member, i, j, value}}), index(member, i, j));
+}
+
+TYPED_TEST(FiniteCheck, InfinitiesThatCancelAreSeen) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(first_bad<TypeParam>({{0, 0, 3, 4, inf}, {1, 0, 3, 4, -inf}}), index(0, 3, 4));
+}
+
+TYPED_TEST(FiniteCheck, TheFirstInRowMajorOrder) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(
+      first_bad<TypeParam>({{0, 0, 9, 2, nan}, {2, 0, 9, 1, nan}, {1, 0, 4, 30, nan}, {0, 1, 0, 0, nan}}),
+      index(0, 4, 30));
+  EXPECT_EQ(first_bad<TypeParam>({{0, 0, 9, 2, nan}, {2, 0, 9, 1, nan}}), index(0, 9, 1));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Why a state is none of a clean run, in words.
+// The check of a state: finite, within range, free of growing grid-scale noise.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/observe/finite_check.hpp"
-#include "kernels/observe/grid_noise.hpp"
-#include "kernels/observe/smallest.hpp"
+#include "kernels/observe/state_check.hpp"
 #include "kernels/tissue/tiled_step.hpp"
 #include "solver/stability.hpp"
 
@@ -46,26 +44,25 @@ struct WatchedState {
   }
 };
 
-// V, r or Ta is not finite, V or r is out of range, or there is noise. `growing`: called where the grid has
-// some, returns the observe::GrowingNoise. Empty where the state may be one of a clean run.
+// Describes the first problem found in a state: V, r or Ta is not finite, V or r is out of range, or V
+// alternates at the grid's scale and keeps doing so. Empty for a valid state. `growing`: called where the
+// noise is too large, returns the observe::GrowingNoise.
 template <class ExecutionSpace, class View, class Growing>
-std::optional<std::string> find_state_fault(const ExecutionSpace& space, const WatchedState<View>& state,
-                                            const CleanRange& range, const Growing& growing) {
+std::optional<std::string> check_state(const ExecutionSpace& space, const WatchedState<View>& state,
+                                       const CleanRange& range, const Growing& growing) {
   const auto& [V, r, Ta] = state.fields;
-  const long broken = observe::first_non_finite(space, V, r, Ta.size() > 0 ? Ta : r);
-  if (broken >= 0) return state.text("the excitation is not finite", broken);
-
-  const auto [noise, lowest_V, highest_V] = observe::grid_noise(space, V);
-  if (lowest_V < range.min_V || highest_V > range.max_V)
+  const observe::InspectedState found = observe::inspect_state(space, V, r, Ta);
+  if (found.first_non_finite >= 0) return state.text("the excitation is not finite", found.first_non_finite);
+  if (found.min_V < range.min_V || found.max_V > range.max_V)
     return state.out_of_range(V, "V", range.min_V, range.max_V);
-  if (observe::smallest(space, r) < range.min_r)
+  if (found.min_r < range.min_r)
     return state.out_of_range(r, "r", range.min_r, std::numeric_limits<double>::infinity());
 
-  if (noise < largest_clean_noise) return std::nullopt;
-  const observe::GrowingNoise found = growing();
-  if (found.node < 0) return std::nullopt;
+  if (found.noise < largest_clean_noise) return std::nullopt;
+  const observe::GrowingNoise noise = growing();
+  if (noise.node < 0) return std::nullopt;
   return state.text(
-      fmt::format("V alternates by {:.3g} from node to node and from step to step", found.noise), found.node);
+      fmt::format("V alternates by {:.3g} from node to node and from step to step", noise.noise), noise.node);
 }
 
 }  // namespace myowave::solver
