@@ -118,6 +118,9 @@ class Electromechanics {
     if (scene_.output.maps) archive(activation_.marks, activation_.records);
     if (equilibrium_) archive(gauss_tension_.host, solved_nodes_, nodes_.host, element_areas_);
   }
+  void allocate_fields(const InitialState&);
+  void place_probes();
+  void solve_rest_state();
   void download_tension();
   void add_to_statistics(const SolveReport&);
   // To where conduction feels the nodes from t on; true where one has moved.
