@@ -49,7 +49,7 @@ def split(name):
 def yardstick(rest):
     """Row of the yardstick for a product's row: every metric form is held against the loaded one.
 
-    >>> yardstick("conservative/float64/251")
+    >>> yardstick("expanded/float64/251")
     'conservative_loaded/float64/251'
     >>> yardstick("identity/float64/121/members:8")
     'identity/float64/121'
