@@ -10,16 +10,16 @@ template <class ExecutionSpace>
 inline constexpr bool runs_on_host =
     Kokkos::SpaceAccessibility<ExecutionSpace, Kokkos::HostSpace>::accessible;
 
-// How the columns of a row are looped over:
+// Loops over the columns of a row:
 //   each(begin, end, body)          body(j) for begin <= j < end, iterations independent of one another
 //   each(begin, end, body, hint)    the same on fields; hint(j) prefetches what column j needs
-//   each_again(begin, end, body)    the same, and twice for some columns
-//   each_of_whole_lines(end, body)  from 0 on to a multiple of a line's entries
+//   each_again(begin, end, body)    the same; body(j) may run twice
+//   each_of_whole_lines(end, body)  from 0 to `end`, a multiple of a line's entries
 //   once(body)                      body() by one lane
-//   wait()                          for what others have written to the row; there are none on a host
+//   wait()                          for writes of other lanes to the row; nothing on a host
 //
-// By the SIMD lanes of a host's thread, on fields of Real. Without hints where they come from a cache: hints
-// cost loads, and those beyond a thread's own rows would take lines that another thread writes.
+// By the SIMD lanes of a host's thread, on fields of Real. Prefetches only fields that come from memory: in a
+// cache the hints cost loads and, beyond a thread's own rows, lines that another thread writes.
 template <class Real>
 struct HostColumns {
   bool from_memory = false;

@@ -13,9 +13,9 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetch_to_write([[maybe_unused]] const void* 
   KOKKOS_IF_ON_HOST((__builtin_prefetch(address, 1);))
 }
 
-// The number itself, of which a host's compiler knows nothing more. It would carry one address after another
-// through a loop, for each expression in the loop's counter, and where they are more than there are registers
-// it is faster to make them anew.
+// Hides the value from a host's compiler, so that it recomputes addresses instead of spilling pointers: else
+// GCC carries a pointer through a loop for each expression in the loop's counter, more than there are
+// registers.
 KOKKOS_FORCEINLINE_FUNCTION int opaque(int number) {
   KOKKOS_IF_ON_HOST((asm("" : "+r"(number));))
   return number;
@@ -23,23 +23,23 @@ KOKKOS_FORCEINLINE_FUNCTION int opaque(int number) {
 
 namespace detail {
 
-// Bytes of one array: a line of the cache, and how much of a row runs between two rounds of hints.
+// Bytes of a cache line, and of the part of a row between two rounds of prefetches.
 inline constexpr int line_bytes = 64, block_bytes = 256;
 template <class Real>
 inline constexpr int line_of = line_bytes / static_cast<int>(sizeof(Real));
 template <class Real>
 inline constexpr int block_of = block_bytes / static_cast<int>(sizeof(Real));
 
-// Inlined by force, with the body: a clone of it elsewhere would take what it refers to from memory, where
-// each short row would have to put it.
+// Inlined by force, with the body: an outlined clone would read the captured values from memory, and each
+// short row would have to store them there.
 template <class Body>
 [[gnu::always_inline]] inline void simd_loop(int begin, int end, const Body& body) {
 #pragma omp simd
   for (int j = begin; j < end; ++j) body(j);
 }
 
-// A line at a time, of a length that the compiler knows: it makes straight code of it, with fewer addresses,
-// and nothing to find out before and after a short row. Returns the first column that fills no line.
+// One cache line at a time: with a compile-time length the loop becomes straight code with fewer addresses
+// and no prologue or epilogue. Returns the first column of the incomplete line.
 template <class Real, class Body>
 [[gnu::always_inline]] inline int simd_lines(int begin, int end, const Body& body) {
   int j = begin;
@@ -52,19 +52,19 @@ inline void simd_loop_by_lines(int begin, int end, const Body& body) {
   simd_loop(simd_lines<Real>(begin, end, body), end, body);
 }
 
-// The same where a second body(j) does nothing new: columns that fill no line go in one that ends with the
-// last. Where that begins is kept from the compiler: of a single line it would make scalar code.
+// The same where body(j) may run twice: the incomplete line is replaced by a whole one that ends with the
+// last column. Its start is hidden from the compiler, which would else make scalar code of a single line.
 template <class Real, class Body>
 [[gnu::always_inline]] inline void simd_loop_again(int begin, int end, const Body& body) {
-  if (end - begin < line_of<Real>) {  // rare, so in as little code as will do
+  if (end - begin < line_of<Real>) {  // rare: small code
     for (int j = begin; j < end; ++j) body(opaque(j));
     return;
   }
   if (simd_lines<Real>(begin, end, body) < end) simd_lines<Real>(opaque(end - line_of<Real>), end, body);
 }
 
-// A step has more streams, and more arithmetic between two lines of one, than a processor's own
-// prefetcher keeps ahead of: from memory it is half as fast without hints. hint(j) is called once a line.
+// A step has more streams, and more arithmetic between two lines of one, than a processor's own prefetcher
+// handles. hint(j) is called once a line.
 template <class Real, class Body, class Hint>
 inline void simd_loop_by_lines(int begin, int end, const Body& body, const Hint& hint) {
   for (int first = begin; first < end; first += block_of<Real>) {

@@ -6,8 +6,8 @@
 
 namespace myowave::tissue {
 
-// Weights of the edge network, of a row and the one below it, all from the same column on. Five points have
-// no antidiagonals of their own.
+// Weights of the edge network of a row and the one below it; the pointers are to the same column. With five
+// points an antidiagonal has minus the weight of its cell's diagonal.
 template <class Real, Stencil stencil = Stencil::five_point>
 struct EdgeWeights {
   const Real* KOKKOS_RESTRICT east_;
@@ -39,7 +39,7 @@ struct EdgeWeights {
   }
 };
 
-// The weights of a few neighbouring rows of a tile in scratch rows, one array for each kind.
+// The weights of a few neighbouring rows of a tile in scratch memory, one array for each kind.
 template <class Real, class Pitch, Stencil stencil = Stencil::five_point>
 struct WeightRows {
   Real* begin;  // the tile's first column, aligned
@@ -156,7 +156,7 @@ struct ConservativeDiffusion {
 
   // Rows in memory are shifted by one (see ConservativeMetric).
   KOKKOS_FORCEINLINE_FUNCTION Row row(const StencilRows<Real>& V, int m, int i, int origin) const {
-    // Of five points its place is taken by one that is there, and not looked at.
+    // With five points the pointer is not used; it points to the diagonals, which exist.
     const auto& antidiagonal = stencil == Stencil::nine_point ? metric.antidiagonal : metric.diagonal;
     const int j = origin + 1;
     return {V,

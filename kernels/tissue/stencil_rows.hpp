@@ -6,24 +6,24 @@
 
 namespace myowave::tissue {
 
-// Entries of an array of scratch rows `pitch` apart; a line more, so that arrays do not fall on one another
-// in a cache.
+// Entries of an array of scratch rows `pitch` apart, and one line more, so that arrays do not map to the same
+// cache sets.
 template <class Real>
 KOKKOS_FORCEINLINE_FUNCTION constexpr int array_entries(int rows, int pitch) {
   return rows * pitch + detail::line_of<Real>;
 }
 
-// The place of row i among `slots`, a power of two. Steps one after another take rows from above downwards,
-// which lie upwards here: a processor fetches ahead what comes next.
+// The place of row i among `slots`, a power of two. Successive levels of a front use rows from above
+// downwards; here these are at increasing addresses, which a processor prefetches.
 KOKKOS_FORCEINLINE_FUNCTION constexpr int slot_of(int i, int slots) { return ~i & (slots - 1); }
 
-// A number that the compiler knows.
+// A compile-time number with the interface of an int.
 template <int number>
 struct Constant {
   KOKKOS_FUNCTION constexpr operator int() const { return number; }
 };
 
-// V in three neighbouring rows, all three from the same column on.
+// V in three neighbouring rows; the pointers are to the same column.
 template <class Real>
 struct StencilRows {
   const Real* KOKKOS_RESTRICT below;

@@ -10,15 +10,15 @@
 
 namespace myowave::tissue {
 
-// Nodes that a team owns, the steps of a sweep over them, and the sweeps of one launch, more than one only
-// where a tile is a whole sheet. After an even number of sweeps the new state is where the old one was.
+// The nodes of a tile, the steps of a sweep, and the sweeps of one launch. More than one sweep needs tiles
+// that are whole sheets; after an even number of sweeps the new state is in the arrays of the old one.
 struct TilePlan {
   int rows = 1, columns = 1, depth = 1, sweeps = 1;
 };
 
 // Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
 // of a front run between two barriers: a level must not read what the one below writes at the same front.
-// One thread alone has no such care, and fewer rows on the way.
+// A host's team is one thread, so that a lag of 1 suffices, with fewer rows in scratch.
 template <class ExecutionSpace>
 inline constexpr int tile_lag = runs_on_host<ExecutionSpace> ? 1 : 2;
 
@@ -28,36 +28,35 @@ struct Tiling {
   using Policy = Kokkos::TeamPolicy<ExecutionSpace>;
   static constexpr bool on_host = runs_on_host<ExecutionSpace>;
 
-  // Fronts of which V is on the way, the last lag + 2, and a power of two, so that a row finds its place
-  // without a division.
+  // Fronts whose V is in scratch: at least the last lag + 2, and a power of two, so that the place of a row
+  // needs no division.
   static constexpr int V_fronts = 4;
   static_assert(lag + 2 <= V_fronts);
-  // Scratch of a device is the fast memory of a multiprocessor; on a host it is what stays in a cache.
+  // Level 0 is the shared memory of a device's multiprocessor; a host's scratch stays in its cache.
   static constexpr int scratch_level = on_host ? 1 : 0;
-  // Entries of a line of the cache: rows on the way begin at one, which makes a step on a host 1.6 times as
-  // fast as rows that begin anywhere.
+  // Entries of a cache line. Scratch rows start at one: loads of unaligned vectors would cross two lines.
   static constexpr int line = detail::line_of<Real>;
 
   static constexpr int round_up(int columns) { return (columns + line - 1) / line * line; }
-  // Rows of r, Ta and the metric on the way.
+  // Rows of r, Ta and the metric in scratch.
   KOKKOS_FUNCTION static constexpr int slots_of(int depth) {
     int power = 1;
     while (power < lag * (depth - 1) + (without_metric ? 1 : 2)) power *= 2;
     return power;
   }
-  // Wide tiles compute fewer columns twice; where the weights of edges are on the way too, a host's cache
-  // holds the rows of narrower ones only.
+  // Wide tiles compute fewer columns twice. With the weights of edges in scratch too, a host's cache holds
+  // only narrower rows.
   static constexpr bool without_metric = Diffusion::scratch_entries(1, 1) == 0;
   static constexpr int widest_bytes = on_host && without_metric ? 4096 : 2048;
   static constexpr int widest_tile = widest_bytes / static_cast<int>(sizeof(Real));
   static constexpr int deepest = on_host ? 20 : 15;
-  // Entries from one scratch row to the next: the computed columns and a line at least, for the neighbours
-  // beyond the ends of both; an odd number of lines, so that rows do not fall on one another in a cache.
+  // Entries from one scratch row to the next: the computed columns and at least one line for the neighbours
+  // beyond both ends; an odd number of lines, because an even one maps rows to the same cache sets.
   static constexpr int pitch_of(int computed) { return line * ((1 + (computed + line - 1) / line) | 1); }
   static constexpr int most_computed(int columns, int depth) { return columns + 2 * (depth + line - 1); }
   static constexpr int widest_pitch = pitch_of(most_computed(widest_tile, deepest));
-  // A device knows it beforehand: rows at a fixed distance need no address of their own. On a host the rows
-  // of a small sheet lie close together: they would be in more pages than a processor finds at once.
+  // A constant on a device: rows at a fixed distance need no address of their own. On a host the rows of a
+  // small sheet are packed: far apart they would be in more pages than the TLB holds.
   using Pitch = std::conditional_t<on_host, int, Constant<widest_pitch>>;
   static constexpr int state_arrays = Model::has_tension ? 2 : 1;
   // V, r and Ta, the metric; and a line before them.
@@ -70,19 +69,19 @@ struct Tiling {
     return static_cast<std::size_t>(scratch_entries(depth, pitch)) * sizeof(Real) + detail::line_bytes;
   }
 
-  // Eight warps go along a row of a device's tile, one column a lane; on a host a team is one thread.
+  // On a device eight warps process a row, one column a lane; on a host a team is one thread.
   static constexpr int warps = on_host ? 1 : 8, lanes = on_host ? 1 : 32;
 
   // Owned nodes, half open, and the columns that are computed.
   struct Tile {
     int member, first_row, last_row, first_column, last_column;
     int origin;  // a multiple of `line`
-    int width;   // a multiple of `line`; those outside the sheet are computed too, on zeros
-    int inside;  // those of them inside the sheet
+    int width;   // a multiple of `line`; columns outside the sheet are computed too, on zeros
+    int inside;  // columns inside the sheet
   };
 
-  // What a team has on the way; every pointer is that of column `origin`. V lies by the front that took the
-  // row to its level, 0 (loaded) ... depth - 1; r, Ta and the metric by row modulo the slots.
+  // The scratch rows of a team; every pointer is that of column `origin`. V is indexed by the front that
+  // brought a row to its level, 0 (loaded) ... depth - 1; r, Ta and the metric by row modulo the slots.
   struct Rings {
     Real *V_begin, *r_begin, *metric_begin;
     int depth, slots;
@@ -94,8 +93,8 @@ struct Tiling {
     KOKKOS_FORCEINLINE_FUNCTION Real* Ta(int i) const { return r(i) + array_entries<Real>(slots, pitch); }
   };
 
-  // The depth up to which steps gain: on a host between 16 and 27, as long as the rows on the way stay in the
-  // MiB of an EPYC's second cache; on a device what two teams of a multiprocessor can have.
+  // The depth up to which more steps a launch are faster: on a host between 16 and 27, where the scratch rows
+  // fit the 1 MiB second-level cache of an EPYC; on a device what two teams a multiprocessor can have.
   static int largest_depth() {
     if constexpr (on_host) return deepest;
     const std::size_t most = Policy::scratch_size_max(scratch_level) / 2;
@@ -104,11 +103,11 @@ struct Tiling {
     return depth;
   }
 
-  // What a sweep costs besides its steps, in steps: it loads rows, and its first and last steps wait for
-  // memory. On an EPYC 1.4 from a cache and up to 5 from memory.
+  // Cost of a sweep besides its steps, in steps: it loads rows, and its first and last steps wait for memory.
+  // Measured on an EPYC: 1.4 from a cache, up to 5 from memory.
   static constexpr double steps_of_loads = 3;
 
-  // Tiles of at most the widest, as many rows to each as keep all teams equally busy.
+  // Tiles no wider than widest_tile, with as many rows each as keep all teams equally busy.
   static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
     const int column_tiles = tiles_of(grid.columns, widest_tile);
     const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
@@ -151,8 +150,8 @@ struct Tiling {
       return {};
   }
 
-  // Scratch memory of a team. On a host as much for any plan, so that later ones do not allocate; on a device
-  // it is scarce.
+  // Bytes of scratch memory a team. On a host the same for every plan, so that later launches do not
+  // allocate; a device has too little for that.
   static std::size_t launch_bytes(const Grid& grid, const TilePlan& plan) {
     if constexpr (on_host) return scratch_bytes(deepest, pitch_in(grid, widest_tile, deepest));
     return scratch_bytes(plan.depth, pitch_in(grid, plan.columns, plan.depth));
@@ -163,8 +162,8 @@ struct Tiling {
     return Kokkos::max(1, space.concurrency() / (warps * lanes));
   }
 
-  // Rows of tiles that the busiest team computes in a step; of its neighbours' half of `depth` at each end,
-  // on the average.
+  // Rows that the busiest team computes in a step, with those of its neighbours: on average depth / 2 at each
+  // end of a tile.
   static double rows_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
                                const TilePlan& plan) {
     const int row_tiles = tiles_of(grid.rows, plan.rows), column_tiles = tiles_of(grid.columns, plan.columns);

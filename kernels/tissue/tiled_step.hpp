@@ -1,19 +1,19 @@
-// Several explicit steps in one launch, bitwise equal to single ones: while the metric is held, a tile of
-// the sheet can be carried on by `depth` steps without going back to memory.
+// Several explicit steps in one launch, bitwise identical to single ones: while the metric is held, a tile of
+// the sheet can take `depth` steps without going back to memory.
 //
-// A team owns the nodes of a tile and goes up its rows like a wave: at front f it loads row f and takes
-// step `level` = 1 ... depth on row f - lag level, so that the few rows on the way stay in the team's
-// scratch memory and every row of the sheet is read once and written once. Neighbours that other tiles own
-// are computed again: a tile begins `depth` rows and columns outside, and each step spoils one of them.
-// Old and new state must be different arrays, for other tiles read the old one. A tile that is a whole sheet
-// has no such neighbours and goes on for several sweeps of `depth` steps, from one array to the other and
-// back, while its member of an ensemble is in the cache.
+// A team owns the nodes of a tile and sweeps its rows upwards like a wave: at front f it loads row f and
+// takes step `level` = 1 ... depth on row f - lag level. The few rows in flight stay in the team's scratch
+// memory; every row of the sheet is read once and written once. Neighbours that other tiles own are computed
+// again: a tile starts `depth` rows and columns outside, and each step invalidates one of them. Old and new
+// state must be different arrays, because other tiles read the old one. A tile that is a whole sheet has no
+// such neighbours and takes several sweeps of `depth` steps, from one array to the other and back, while its
+// member of an ensemble is in the cache.
 //
 //   view             shape                      unit   access
-//   V, r             (members, rows, columns)   -      read, of several sweeps also write
-//   Ta               (members, rows, columns)   kPa    read, of several sweeps also write
-//   V_next, r_next   (members, rows, columns)   -      write, of several sweeps also read
-//   Ta_next          (members, rows, columns)   kPa    write, of several sweeps also read
+//   V, r             (members, rows, columns)   -      read; with several sweeps also write
+//   Ta               (members, rows, columns)   kPa    read; with several sweeps also write
+//   V_next, r_next   (members, rows, columns)   -      write; with several sweeps also read
+//   Ta_next          (members, rows, columns)   kPa    write; with several sweeps also read
 #pragma once
 
 #include "kernels/tissue/row_update.hpp"
@@ -27,7 +27,7 @@ struct ExcitationFields {
   View V, r, Ta;
 };
 
-// Looks at V and r of the owned nodes before each step; nothing by default.
+// Called with V and r of the owned nodes before each step; records nothing.
 struct NoRecorder {
   template <class Columns, class Real>
   KOKKOS_FUNCTION void operator()(const Columns&, int /*m*/, int /*i*/, int /*step*/, int /*begin*/,
@@ -80,9 +80,9 @@ struct TiledStep {
     Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
 
-  // The rows in memory that a front is the first to read, and those that it writes. Its loops alone would
-  // wait for them, so hints to fetch them go out during the front before, some columns with each of its
-  // levels: all at once they would keep its own rows, which come from the cache, waiting.
+  // The rows in memory that a front is the first to read, and those that it writes. They are prefetched
+  // during the front before, some columns with each of its levels: all at once would delay that front's own
+  // rows, which come from the cache.
   struct RowsToCome {
     static constexpr int states = Model::has_tension ? 3 : 2;
     const Real* read[states + Diffusion::metric_arrays];
@@ -95,7 +95,7 @@ struct TiledStep {
     }
   };
 
-  // From where to where the steps of a sweep go.
+  // Source and destination of a sweep.
   struct Sweep {
     const ExcitationFields<View>&from, &to;
     int first_step;
@@ -177,8 +177,8 @@ struct TiledStep {
     return rows;
   }
 
-  // All zero: what comes of entries outside the sheet, and beside the computed columns, is finite and never
-  // used.
+  // Initialised to zero: results for entries outside the sheet and beside the computed columns are finite and
+  // never used.
   KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team) const {
     const int depth = plan.depth, slots = Tiles::slots_of(depth),
               entries = Tiles::scratch_entries(depth, pitch);
@@ -192,7 +192,7 @@ struct TiledStep {
     return {V, r, r + Tiles::state_arrays * array_entries<Real>(slots, pitch), depth, slots, pitch};
   }
 
-  // The neighbours outside the sheet, of a row on the way: V(-1) = V(1), V(n) = V(n - 2).
+  // Sets the neighbours outside the sheet in a scratch row: V(-1) = V(1), V(n) = V(n - 2).
   KOKKOS_FORCEINLINE_FUNCTION void mirror_ends(const Columns& columns, const Tile& tile, Real* V) const {
     if constexpr (!Diffusion::mirrors) return;
     const int right = diffusion.grid.columns - tile.origin;
@@ -212,8 +212,8 @@ struct TiledStep {
     mirror_ends(columns, tile, V);
   }
 
-  // Most levels go from scratch rows to scratch rows; where that is known beforehand, a host's short rows
-  // have less to decide in front of them.
+  // Most levels read and write scratch rows only. A template parameter says so, because on a host's short
+  // rows the decisions before the loop count.
   template <bool between_scratch_rows, class Metric>
   KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Sweep& sweep,
                                            const Rings& rings, const Metric& metric, int front,
@@ -251,7 +251,7 @@ struct TiledStep {
     if (!last) mirror_ends(columns, tile, update.V_next);
   }
 
-  // By reference: a copy of so many pointers would go through the stack, in each level anew.
+  // By reference: a copy of so many pointers would go through the stack at each level.
   template <class Row>
   struct AdvanceColumn {
     const NodeUpdate<Model>& update;
@@ -268,7 +268,7 @@ struct TiledStep {
   }
 };
 
-// Any number of steps without a stimulus, in sweeps of equal depth as far as it goes. The new state is in
+// Any number of steps without a stimulus, in sweeps whose depths differ by one at most. The new state is in
 // `state` afterwards; `spare` are fields of the same shape.
 template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
 void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
@@ -282,7 +282,7 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
     const int depth = (steps - done) / (sweeps - n);
     TilePlan plan = Tiles::plan_tiles(space, diffusion.grid, members, depth);
     const bool whole_sheets = plan.rows == diffusion.grid.rows && plan.columns == diffusion.grid.columns;
-    const int deeper = (steps - done) % (sweeps - n);  // of those to come are one step deeper
+    const int deeper = (steps - done) % (sweeps - n);  // sweeps left that are one step deeper
     if (whole_sheets) plan.sweeps = sweeps - n - deeper;
     Step::launch(space, diffusion, model, dt, plan, state, spare, first_step + done, record);
     if (plan.sweeps % 2 == 1) std::swap(state, spare);
