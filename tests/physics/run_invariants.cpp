@@ -84,6 +84,36 @@ TEST(RunInvariants, ObservationDoesNotChangeTheRun) {
   EXPECT_EQ(seldom.summary.mechanics.solves, often.summary.mechanics.solves);
 }
 
+// A front that starts at the left end of a strip, and the same with a stimulus of amplitude 0, with which
+// every step is taken by itself.
+TEST(RunInvariants, StepsInTilesAreBitwiseIdenticalToSingleSteps) {
+  Scene strip;
+  strip.grid = {41, 261, 0.6};
+  strip.time.t_end = 12;
+  strip.stimuli.push_back({.amplitude = 2, .shape = solver::Stimulus::Shape::block});
+  strip.stimuli[0].columns = {0, 5};
+  strip.stimuli[0].rows = {0, strip.grid.rows - 1};
+  strip.output.probes = {{20, 4}, {20, 30}, {0, 259}};
+  strip.output.probes_every = 0.1;
+  for (const auto precision : {solver::Precision::float64, solver::Precision::float32})
+    for (const bool deforms : {false, true}) {
+      Scene scene = strip;
+      scene.precision = precision;
+      if (deforms) scene.mechanics.emplace().interval = 40;
+      const test::RecordedRun in_tiles = test::recorded_run(scene);
+      scene.stimuli.push_back({.duration = 2 * scene.time.t_end, .amplitude = 0});
+      const test::RecordedRun single = test::recorded_run(scene);
+      EXPECT_EQ(in_tiles.state.V, single.state.V);
+      EXPECT_EQ(in_tiles.state.r, single.state.r);
+      EXPECT_EQ(in_tiles.state.Ta, single.state.Ta);
+      EXPECT_EQ(in_tiles.sink.nodes, single.sink.nodes);
+      ASSERT_EQ(in_tiles.sink.probe_samples.size(), 121U);
+      for (std::size_t n = 0; n < in_tiles.sink.probe_samples.size(); ++n)
+        EXPECT_EQ(in_tiles.sink.probe_samples[n].values, single.sink.probe_samples[n].values);
+      EXPECT_GT(in_tiles.state.V[20 * 261 + 20], 0.9) << "no front";
+    }
+}
+
 TEST(RunInvariants, Float32FollowsFloat64) {
   Scene scene = spiral(61);
   scene.time.t_end = 50;
