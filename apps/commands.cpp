@@ -33,6 +33,7 @@
 #include "myowave_version.hpp"
 #include "solver/device_memory.hpp"
 #include "solver/error.hpp"
+#include "solver/make_plan.hpp"
 #include "solver/memory_watch.hpp"
 #include "solver/run.hpp"
 #include "solver/stability.hpp"
@@ -77,7 +78,7 @@ std::string mean_text(const solver::MeanSd& value, std::string_view unit) {
 // Of each of Kokkos' memory spaces what the run took at most: "1.5 MiB in Host (1.6 MiB foretold)".
 std::string memory_text(const solver::RunSummary& summary) {
   std::string text;
-  const auto foretold = summary.plan.views();
+  const auto foretold = solver::views_of(summary.plan);
   for (const auto& [space, bytes] : summary.memory) {
     text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", bytes_text(bytes), space);
     const auto planned = std::ranges::find(foretold, space, &solver::SpaceBytes::space);
@@ -127,7 +128,7 @@ void print_memory(const solver::Plan& plan, double nodes) {
   fmt::print("memory   {}; bytes a node: {:.0f} of state, {:.0f} of coefficients, {:.0f} in all\n",
              bytes_text(plan.bytes()), plan.state_bytes_per_node, plan.coefficient_bytes_per_node,
              plan.bytes() / nodes);
-  for (const auto& [space, bytes] : plan.views()) {
+  for (const auto& [space, bytes] : solver::views_of(plan)) {
     const bool on_host = space == Kokkos::HostSpace::name() || !solver::has_device_memory();
     const auto free = on_host ? free_memory() : solver::free_device_memory();
     fmt::print("         {} in the Views of Kokkos' memory space {}{}\n", bytes_text(bytes), space,

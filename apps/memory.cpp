@@ -7,9 +7,9 @@
 #include <fstream>
 #include <string_view>
 
-#include "apps/resample.hpp"
 #include "solver/error.hpp"
-#include "solver/plan.hpp"
+#include "solver/grid_spacing.hpp"
+#include "solver/make_plan.hpp"
 
 namespace myowave::apps {
 

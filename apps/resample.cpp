@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "solver/extrapolation.hpp"
+#include "solver/lagrange.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -14,8 +14,6 @@ using solver::GridSettings;
 
 // Of a spacing: what decimal numbers leave of a whole number of it.
 constexpr double rounding = 1e-6;
-
-bool is_whole(double value) { return std::abs(value - std::round(value)) < rounding; }
 
 // Four nodes around a place along a side, and Lagrange's weights of them.
 struct Cubic {
@@ -63,22 +61,6 @@ void move_stimulus(solver::Stimulus& one, double ratio, const GridSettings& grid
 }
 
 }  // namespace
-
-bool divides_sheet(const GridSettings& sheet, double dx) {
-  const double ratio = sheet.dx / dx;
-  return is_whole((sheet.rows - 1) * ratio) && is_whole((sheet.columns - 1) * ratio);
-}
-
-GridSettings with_spacing(const GridSettings& sheet, double dx) {
-  const double ratio = sheet.dx / dx;
-  return {.rows = static_cast<int>(std::lround((sheet.rows - 1) * ratio)) + 1,
-          .columns = static_cast<int>(std::lround((sheet.columns - 1) * ratio)) + 1,
-          .dx = dx};
-}
-
-GridSettings grid_of_start(const solver::Scene& scene) {
-  return scene.initial.dx > 0 ? with_spacing(scene.grid, scene.initial.dx) : scene.grid;
-}
 
 double spacing_of_run(const solver::Scene& scene) {
   const auto& [rows, columns, dx] = scene.grid;

@@ -4,18 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "solver/grid_spacing.hpp"
 #include "solver/scene.hpp"
 
 namespace myowave::apps {
-
-// Whether the sheet's sides are whole numbers of dx, length units, to rounding.
-bool divides_sheet(const solver::GridSettings& sheet, double dx);
-
-// The sheet with the nodes that it has at a spacing which divides it.
-solver::GridSettings with_spacing(const solver::GridSettings& sheet, double dx);
-
-// The grid that a scene's start is made on, in whose nodes its keys of [initial] are.
-solver::GridSettings grid_of_start(const solver::Scene&);
 
 // The largest spacing up to accuracy.dx of which the elements of the sheet, or the sides of a rigid one, are
 // whole numbers; grid.dx where accuracy.dx is 0.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/make_plan.hpp"
+
 namespace myowave::apps {
 namespace {
 
@@ -145,7 +147,8 @@ json summary_json(const solver::RunSummary& summary, bool deforms,
         {"observe", number(phases.observe)},
         {"output", number(phases.output)}}},
       {"wall_s", number(summary.wall_s)},
-      {"memory", {{"planned_bytes", memory(summary.plan.views())}, {"most_bytes", memory(summary.memory)}}},
+      {"memory",
+       {{"planned_bytes", memory(solver::views_of(summary.plan))}, {"most_bytes", memory(summary.memory)}}},
       {"throughput", {{"cell_steps_per_s", number(summary.cell_steps_per_s)}}},
       {"mechanics", deforms ? mechanics(summary.mechanics) : json(nullptr)},
       {"observables", observables(summary.observables)}};

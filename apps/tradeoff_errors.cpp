@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "apps/richardson.hpp"
-#include "solver/extrapolation.hpp"
+#include "solver/lagrange.hpp"
 #include "solver/statistics.hpp"
 
 namespace myowave::apps {

@@ -1,9 +1,10 @@
 // How fast fronts cross the sheet, from when they come to its nodes.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
+
+#include "solver/sample_statistics.hpp"
 
 namespace myowave::solver {
 
@@ -19,11 +20,7 @@ namespace myowave::solver {
 // Curved fronts are slower than plane ones, and a front is faster before an edge that it runs into.
 std::vector<double> conduction_velocity(int rows, int columns, double dx, std::span<const double> activation);
 
-// Of the values that are finite, by linear interpolation of the sorted ones; nan where there is none.
-struct Quartiles {
-  double lower = 0, median = 0, upper = 0;
-  std::int64_t n = 0;
-};
+// Of the finite values, by linear interpolation of the sorted ones; nan where there is none.
 Quartiles quartiles(std::span<const double> values);
 
 }  // namespace myowave::solver

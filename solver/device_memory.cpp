@@ -5,7 +5,7 @@
 #include <Kokkos_Core.hpp>
 
 #include "solver/error.hpp"
-#include "solver/plan.hpp"
+#include "solver/make_plan.hpp"
 
 namespace myowave::solver {
 

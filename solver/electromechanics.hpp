@@ -16,6 +16,7 @@
 #include "solver/execution.hpp"
 #include "solver/extrapolation.hpp"
 #include "solver/run_output.hpp"
+#include "solver/select_form.hpp"
 #include "solver/select_model.hpp"
 #include "solver/stability.hpp"
 #include "solver/stimulus_schedule.hpp"
@@ -94,6 +95,7 @@ class Electromechanics {
   // What the crossings of V since the last look tell; the first look begins the maps. Where the scene has
   // maps.
   void look_at_activation(double t);
+  // Without the conduction velocity.
   ActivationMaps activation_maps() const;
 
   const AreaSample& area() const { return area_; }  // of the last solve

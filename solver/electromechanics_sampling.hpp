@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "kernels/observe/probes.hpp"
+#include "solver/beat.hpp"
 #include "solver/electromechanics_common.hpp"
 #include "solver/mirror.hpp"
-#include "solver/rhythm.hpp"
 #include "solver/state_check.hpp"
 
 namespace myowave::solver {
@@ -19,9 +19,9 @@ namespace myowave::solver {
 namespace detail {
 
 // Maps and probes tell beats alike.
-inline constexpr observe::ActivationLevels beat_levels{static_cast<float>(BeatDetector::threshold),
-                                                       static_cast<float>(BeatDetector::rearm),
-                                                       static_cast<float>(BeatDetector::apd_level)};
+inline constexpr observe::ActivationLevels beat_levels{static_cast<float>(BeatLevels::upstroke),
+                                                       static_cast<float>(BeatLevels::rearm),
+                                                       static_cast<float>(BeatLevels::apd)};
 
 inline auto values_of(const tissue::ActiveStimulus& stimulus) {
   const auto& r = stimulus.region;
@@ -110,7 +110,7 @@ ActivationMaps Electromechanics<ExecutionSpace, Real>::activation_maps() const {
   maps.rows = grid_.rows;
   maps.columns = grid_.columns;
   maps.dx = grid_.dx;
-  maps.apd_level = BeatDetector::apd_level;
+  maps.apd_level = BeatLevels::apd;
   for (std::size_t n = 0; n < records.size(); ++n) {
     const observe::ActivationRecord& node = records.data()[n];
     const bool activated = node.beats > 0;
@@ -122,7 +122,6 @@ ActivationMaps Electromechanics<ExecutionSpace, Real>::activation_maps() const {
     maps.apd.push_back(node.apds > 0 ? node.total_apd / node.apds : none);
     maps.beats.push_back(node.beats);
   }
-  maps.conduction_velocity = conduction_velocity(grid_.rows, grid_.columns, grid_.dx, maps.activation);
   return maps;
 }
 

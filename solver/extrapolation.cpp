@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/elastic/kinematics.hpp"
+#include "solver/lagrange.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -14,14 +15,6 @@ bool turns_a_corner(const elastic::ElementGrid& grid, const SolvedNodes::HostNod
 }
 
 }  // namespace
-
-std::vector<double> lagrange_weights(std::span<const double> times, double t) {
-  std::vector<double> weights(times.size(), 1);
-  for (std::size_t n = 0; n < times.size(); ++n)
-    for (std::size_t m = 0; m < times.size(); ++m)
-      if (m != n) weights[n] *= (t - times[m]) / (times[n] - times[m]);
-  return weights;
-}
 
 SolvedNodes::SolvedNodes(const elastic::ElementGrid& grid, std::size_t solves) : grid_(grid), kept_(solves) {
   for (std::size_t n = 0; n < kept_; ++n)

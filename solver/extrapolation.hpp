@@ -5,16 +5,11 @@
 #include <Kokkos_Core.hpp>
 #include <array>
 #include <cstddef>
-#include <span>
-#include <vector>
 
 #include "kernels/base/views.hpp"
 #include "kernels/elastic/element_grid.hpp"
 
 namespace myowave::solver {
-
-// Weights, of sum 1, with which values at distinct `times` make their Lagrange polynomial at t.
-std::vector<double> lagrange_weights(std::span<const double> times, double t);
 
 class SolvedNodes {
  public:

@@ -1,12 +1,10 @@
 // What a scene requires: which parts of the model run, as which variant, why the others do not, and the
-// memory of each. Made from the same predicates (solver/scene.hpp) that the run decides by.
+// memory of each.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "solver/scene.hpp"
 
 namespace myowave::solver {
 
@@ -35,18 +33,8 @@ struct Plan {
 
   std::uint64_t bytes() const;         // in all
   std::uint64_t device_bytes() const;  // of Views where the excitation runs
-  // By memory space, that one first, then the host's where it is another. What solver/memory_watch.hpp
-  // measures.
-  std::vector<SpaceBytes> views() const;
   // "part: what" of every active part.
   std::vector<std::string> in_words() const;
 };
-
-// 64-bit arithmetic, nothing is allocated: sheets beyond any memory have a plan too.
-Plan make_plan(const Scene&);
-inline std::uint64_t memory_bytes(const Scene& scene) { return make_plan(scene).bytes(); }
-
-// Whether the excitation runs in a memory of its own, apart from the host's.
-bool has_device_memory();
 
 }  // namespace myowave::solver

@@ -12,15 +12,16 @@ std::optional<Beat> BeatDetector::add(double t, double V) {
   const auto rises_through = [&](double level) { return seen_ && V_ < level && V >= level; };
   const auto falls_through = [&](double level) { return seen_ && V_ >= level && V < level; };
 
-  if (rises_through(apd_level)) rise_ = crossing(apd_level);
-  if (armed_ && rises_through(threshold)) complete = begin_beat(crossing(threshold));
+  if (rises_through(BeatLevels::apd)) rise_ = crossing(BeatLevels::apd);
+  if (armed_ && rises_through(BeatLevels::upstroke)) complete = begin_beat(crossing(BeatLevels::upstroke));
   if (beat_) {
     beat_peak_ = std::max(beat_peak_, V);
-    const double level = beat_peak_ - repolarisation * (beat_peak_ - beat_rest_);
+    const double level = beat_peak_ - BeatLevels::repolarisation * (beat_peak_ - beat_rest_);
     if (std::isnan(beat_->apd90) && falls_through(level)) beat_->apd90 = crossing(level) - beat_->upstroke;
-    if (std::isnan(beat_->apd) && falls_through(apd_level)) beat_->apd = crossing(apd_level) - beat_rise_;
+    if (std::isnan(beat_->apd) && falls_through(BeatLevels::apd))
+      beat_->apd = crossing(BeatLevels::apd) - beat_rise_;
   }
-  if (V < rearm) armed_ = true;
+  if (V < BeatLevels::rearm) armed_ = true;
   lowest_ = seen_ ? std::min(lowest_, V) : V;
   seen_ = true;
   t_ = t;
@@ -37,7 +38,7 @@ std::optional<Beat> BeatDetector::begin_beat(double upstroke) {
   beat_ = {.upstroke = upstroke};
   beat_rise_ = std::exchange(rise_, unknown);
   beat_rest_ = beat_peak_ = lowest_;
-  lowest_ = threshold;
+  lowest_ = BeatLevels::upstroke;
   armed_ = false;
   return before;
 }

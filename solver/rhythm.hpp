@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/run_output.hpp"
+#include "solver/beat.hpp"
 #include "solver/statistics.hpp"
 
 namespace myowave::solver {
@@ -16,11 +16,6 @@ namespace myowave::solver {
 // The action potentials at one point, from V in time order. Every crossing is interpolated linearly.
 class BeatDetector {
  public:
-  static constexpr double threshold = 0.5;       // V of the upstroke
-  static constexpr double rearm = 0.2;           // V has to fall below it before the next upstroke
-  static constexpr double apd_level = 0.1;       // V of Beat::apd
-  static constexpr double repolarisation = 0.9;  // fraction of the amplitude, of Beat::apd90
-
   // V at time t (t.u.). Returns the beat that an upstroke ends: the one before it.
   std::optional<Beat> add(double t, double V);
   // The beat that no upstroke has ended: its period and diastolic interval are not known.

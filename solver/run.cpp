@@ -6,10 +6,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/conduction_velocity.hpp"
 #include "solver/denormals.hpp"
 #include "solver/device_memory.hpp"
 #include "solver/electromechanics.hpp"
 #include "solver/error.hpp"
+#include "solver/make_plan.hpp"
 #include "solver/observers.hpp"
 #include "solver/stability.hpp"
 #include "solver/stages.hpp"
@@ -291,7 +293,10 @@ class Stage {
     for (const auto& ended : observers_.take_ended()) output([&] { sink_.trajectory(ended); });
   }
 
-  void show_maps(const ActivationMaps& maps) {
+  void show_maps(ActivationMaps maps) {
+    observe([&] {
+      maps.conduction_velocity = conduction_velocity(maps.rows, maps.columns, maps.dx, maps.activation);
+    });
     summary_.observables.conduction_velocity = quartiles(maps.conduction_velocity);
     output([&] { sink_.maps(maps); });
   }

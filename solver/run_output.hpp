@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,11 +10,10 @@
 #include <vector>
 
 #include "solver/activation_maps.hpp"
-#include "solver/conduction_velocity.hpp"
+#include "solver/beat.hpp"
 #include "solver/plan.hpp"
-#include "solver/scene.hpp"
-#include "solver/statistics.hpp"
-#include "solver/tip_trajectory.hpp"
+#include "solver/sample_statistics.hpp"
+#include "solver/tips.hpp"
 
 namespace myowave::solver {
 
@@ -37,21 +35,6 @@ struct Frame {
   std::span<const double> V, r, Ta;  // rows * columns
   std::span<const double>
       nodes;  // (element_rows+1) * (element_columns+1) * 2, x1 then x2; empty in a rigid run
-};
-
-// An action potential at a point. Times in t.u., nan where not known.
-struct Beat {
-  double upstroke = 0;                                       // V = 0.5
-  double period = std::numeric_limits<double>::quiet_NaN();  // to the next upstroke
-  double apd = std::numeric_limits<double>::quiet_NaN();     // V > 0.1
-  double apd90 =
-      std::numeric_limits<double>::quiet_NaN();  // upstroke to 90 % repolarisation of its own amplitude
-  double di = std::numeric_limits<double>::quiet_NaN();  // diastolic interval after it: period - apd90
-};
-
-struct ProbeBeat {
-  std::size_t probe = 0;
-  Beat beat;
 };
 
 struct Progress {

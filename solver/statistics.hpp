@@ -5,12 +5,9 @@
 #include <optional>
 #include <span>
 
-namespace myowave::solver {
+#include "solver/sample_statistics.hpp"
 
-struct MeanSd {
-  double mean = 0, sd = 0;  // sd: of the sample, over n - 1
-  std::int64_t n = 0;
-};
+namespace myowave::solver {
 
 // Mean and sample standard deviation, accumulated without storing the samples (Welford).
 class RunningStatistics {
@@ -26,14 +23,6 @@ class RunningStatistics {
  private:
   std::int64_t n_ = 0;
   double mean_ = 0, sum_of_squares_ = 0;
-};
-
-// Of samples at equal intervals that need not be independent.
-struct SeriesStatistics : MeanSd {
-  // Integrated correlation time in sampling intervals: 1 for independent samples. None where all are equal.
-  std::optional<double> correlation;
-  double effective_n = 0;     // n / correlation, at most n
-  double standard_error = 0;  // of the mean: sd / sqrt(effective_n)
 };
 
 // tau = 1 + 2 (rho(1) + ... + rho(M)) of the sample autocorrelation rho, with the self-consistent window of

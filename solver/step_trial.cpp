@@ -6,6 +6,7 @@
 
 #include "kernels/observe/state_check.hpp"
 #include "solver/run.hpp"
+#include "solver/select_form.hpp"
 #include "solver/select_model.hpp"
 #include "solver/stability.hpp"
 #include "solver/state_check.hpp"

@@ -9,6 +9,7 @@
 
 #include "kernels/tissue/monodomain_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
+#include "solver/select_form.hpp"
 #include "solver/select_model.hpp"
 #include "tests/support/fields.hpp"
 #include "tests/support/reference_excitation.hpp"

@@ -22,6 +22,7 @@
 #include "apps/scene_file.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
+#include "solver/make_plan.hpp"
 #include "solver/run.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/random_scene.hpp"

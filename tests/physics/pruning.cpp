@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/scene_file.hpp"
+#include "solver/make_plan.hpp"
 #include "solver/run.hpp"
 #include "solver/stages.hpp"
 #include "tests/support/plain_sheet.hpp"
@@ -252,7 +253,7 @@ TEST(Plan, CountsTheBytesThatKokkosAllocates) {
       const Recording seen = record([&] { test::recorded_run(scene); });
       const solver::Plan plan = solver::make_plan(scene);
       double views = 0;
-      for (const auto& [space, bytes] : plan.views()) views += static_cast<double>(bytes);
+      for (const auto& [space, bytes] : views_of(plan)) views += static_cast<double>(bytes);
       EXPECT_NEAR(views / static_cast<double>(seen.most_bytes), 1, 0.05)
           << file.stem() << " " << variant << ": " << views << " planned, " << seen.most_bytes
           << " allocated";

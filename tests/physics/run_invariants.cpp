@@ -11,6 +11,7 @@
 
 #include "solver/electromechanics.hpp"
 #include "solver/error.hpp"
+#include "solver/make_plan.hpp"
 #include "solver/run.hpp"
 #include "tests/support/allclose.hpp"
 #include "tests/support/recording_sink.hpp"

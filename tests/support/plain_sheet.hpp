@@ -11,6 +11,7 @@
 #include "solver/equilibrium.hpp"
 #include "solver/extrapolation.hpp"
 #include "solver/run.hpp"
+#include "solver/select_form.hpp"
 #include "solver/select_model.hpp"
 #include "tests/support/fields.hpp"
 

@@ -10,6 +10,8 @@
 #include <functional>
 #include <vector>
 
+#include "solver/lagrange.hpp"
+
 namespace myowave::solver {
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/plan.hpp"
+#include "solver/make_plan.hpp"
 
 namespace myowave::apps {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "solver/device_memory.hpp"
 #include "solver/error.hpp"
+#include "solver/make_plan.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -76,10 +77,10 @@ TEST(DeviceMemory, IsWhatTheExcitationNeedsBesideTheHosts) {
   scene.mechanics.emplace();
   const Plan plan = make_plan(scene);
   std::uint64_t views = 0;
-  for (const auto& [space, bytes] : plan.views()) views += bytes;
+  for (const auto& [space, bytes] : views_of(plan)) views += bytes;
   EXPECT_LT(plan.device_bytes(), views);
   EXPECT_GT(plan.device_bytes(), 251 * 251 * 6 * sizeof(double));  // V, r and Ta, old and new
-  EXPECT_EQ(plan.views().size(), has_device_memory() ? 2U : 1U);
+  EXPECT_EQ(views_of(plan).size(), has_device_memory() ? 2U : 1U);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 #include "apps/progress_line.hpp"
 #include "apps/summary_file.hpp"
 #include "solver/error.hpp"
-#include "solver/plan.hpp"
+#include "solver/make_plan.hpp"
 #include "tests/support/synthetic_frames.hpp"
 #include "tests/support/temporary_folder.hpp"
 

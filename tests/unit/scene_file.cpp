@@ -12,6 +12,7 @@
 #include "apps/memory.hpp"
 #include "apps/schema.hpp"
 #include "solver/error.hpp"
+#include "solver/make_plan.hpp"
 #include "solver/run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
