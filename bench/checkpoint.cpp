@@ -1,6 +1,6 @@
 // What a checkpoint costs, until it is safe on the disk of the folder for temporary files:
 //   checkpoint / n      251: contracting, V, r, Ta, 25 x 25 elements; 4096: rigid, V, r
-#include "solver/checkpoint.hpp"
+#include "solver/run/checkpoint.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
-#include "solver/electromechanics.hpp"
+#include "solver/coupling/electromechanics.hpp"
 
 namespace myowave::bench {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
-#include "solver/electromechanics.hpp"
-#include "solver/error.hpp"
+#include "solver/base/error.hpp"
+#include "solver/coupling/electromechanics.hpp"
 
 namespace myowave::bench {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
-#include "solver/mesh.hpp"
-#include "solver/sparse_system.hpp"
+#include "solver/mechanics/mesh.hpp"
+#include "solver/mechanics/sparse_system.hpp"
 #include "tests/support/reference_mechanics.hpp"
 
 namespace myowave::bench {

@@ -6,7 +6,7 @@
 //   ensemble / rigid|contracting / float64|float32 / n / members:M   whole runs as a sweep makes them, with
 //   all
 //                                                                 that observes them
-#include "solver/ensemble.hpp"
+#include "solver/run/ensemble.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
 #include "kernels/tissue/tiled_step.hpp"
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave::bench {
 namespace {

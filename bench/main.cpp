@@ -16,7 +16,7 @@
 #include "bench/plain/machine.hpp"
 #include "bench/suite.hpp"
 #include "myowave_version.hpp"
-#include "solver/denormals.hpp"
+#include "solver/base/denormals.hpp"
 
 namespace {
 

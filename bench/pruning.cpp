@@ -7,9 +7,9 @@
 
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
-#include "solver/electromechanics.hpp"
-#include "solver/equilibrium.hpp"
-#include "solver/error.hpp"
+#include "solver/base/error.hpp"
+#include "solver/coupling/electromechanics.hpp"
+#include "solver/mechanics/equilibrium.hpp"
 
 namespace myowave::bench {
 namespace {

@@ -10,8 +10,8 @@
 #include "kernels/base/views.hpp"
 #include "kernels/elastic/element_grid.hpp"
 #include "kernels/tissue/grid.hpp"
-#include "solver/run.hpp"
-#include "solver/select_model.hpp"
+#include "solver/excitation/select_model.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave::bench {
 

@@ -9,10 +9,10 @@
 #include "bench/plain/newton.hpp"
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
-#include "solver/direct_solver.hpp"
-#include "solver/equilibrium.hpp"
-#include "solver/mesh.hpp"
-#include "solver/sparse_system.hpp"
+#include "solver/mechanics/equilibrium.hpp"
+#include "solver/mechanics/linear/direct_solver.hpp"
+#include "solver/mechanics/mesh.hpp"
+#include "solver/mechanics/sparse_system.hpp"
 #include "tests/support/reference_mechanics.hpp"
 
 namespace myowave::bench {

@@ -12,7 +12,7 @@ set(DOXYGEN_STRIP_FROM_INC_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_FILE_PATTERNS *.hpp *.md)
 set(DOXYGEN_FILTER_PATTERNS "*.hpp=awk -f cmake/doxygen_filter.awk"
     "*.md=awk -v root='${PROJECT_SOURCE_DIR}' -f cmake/doxygen_readme.awk")
-set(DOXYGEN_IMAGE_PATH apps/scenes solver)
+set(DOXYGEN_IMAGE_PATH apps/scenes solver/studies)
 
 set(DOXYGEN_EXTRACT_ALL YES)
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
@@ -29,6 +29,6 @@ set(DOXYGEN_PREDEFINED KOKKOS_FUNCTION= KOKKOS_INLINE_FUNCTION=inline KOKKOS_FOR
 
 get_target_property(kernel_headers myowave_kernels HEADER_SET)
 get_target_property(solver_headers myowave_solver HEADER_SET)
-doxygen_add_docs(docs README.md apps/README.md apps/tutorial.md bench/README.md cmake/README.md
+doxygen_add_docs(docs README.md apps/README.md apps/cli/tutorial.md bench/README.md cmake/README.md
   cmake/packaging/README.md kernels/README.md solver/README.md tests/README.md ${kernel_headers} ${solver_headers}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Writing ${PROJECT_BINARY_DIR}/docs/html")

@@ -1,8 +1,8 @@
 # cmake -DOUTPUT=<file.cpp> -DROOT=<project> -DFILES=<file>|<file>... -P EmbedFiles.cmake: text files as the C++ source of
-# myowave::apps::embedded_file (apps/embedded_files.hpp). A README.md takes the name of its folder.
+# myowave::apps::embedded_file (apps/base/embedded_files.hpp). A README.md takes the name of its folder.
 cmake_minimum_required(VERSION 3.25)
 
-set(source "// Written by cmake/EmbedFiles.cmake.\n#include \"apps/embedded_files.hpp\"\n
+set(source "// Written by cmake/EmbedFiles.cmake.\n#include \"apps/base/embedded_files.hpp\"\n
 std::string_view myowave::apps::embedded_file(std::string_view name) {\n")
 string(REPLACE "|" ";" FILES "${FILES}")
 foreach(file IN LISTS FILES)

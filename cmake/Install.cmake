@@ -21,7 +21,7 @@ if(MYOWAVE_APPS)
   set_target_properties(myowave PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON
                         INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
   install(TARGETS myowave)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/scenes ${PROJECT_SOURCE_DIR}/apps/sweeps
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/scenes
           DESTINATION ${CMAKE_INSTALL_DATADIR}/myowave FILES_MATCHING PATTERN *.toml)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CITATION.cff ${PROJECT_SOURCE_DIR}/CHANGELOG.md

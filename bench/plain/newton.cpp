@@ -6,14 +6,14 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "solver/equibiaxial.hpp"
+#include "solver/mechanics/equibiaxial.hpp"
 
 namespace myowave::plain {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The globalisation of solver/newton.hpp as it was when this yardstick was made.
+// The globalisation of solver/mechanics/newton.hpp as it was when this yardstick was made.
 constexpr double stress_unit = 10;  // kPa
 constexpr int max_iterations = 60, max_halvings = 6;
 constexpr double armijo = 1e-4, energy_noise = 1e-12, near_solution = 1e-3;

@@ -1,7 +1,8 @@
 // The yardstick of the mechanics: Newton's method with a new tangent and a sparse factorisation in
 // every iteration, started from the last solution. Its loops are its own, so that they stay as they
 // are; the physics of one element (kernels/elastic/element.hpp), the pattern of the tangent
-// (solver/mesh.hpp) and the sparse factorisation (solver/direct_solver.hpp) are the product's.
+// (solver/mechanics/mesh.hpp) and the sparse factorisation (solver/mechanics/linear/direct_solver.hpp) are
+// the product's.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,9 @@
 #include <vector>
 
 #include "kernels/elastic/element.hpp"
-#include "solver/direct_solver.hpp"
-#include "solver/mesh.hpp"
-#include "solver/scene.hpp"
+#include "solver/mechanics/linear/direct_solver.hpp"
+#include "solver/mechanics/mesh.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace myowave::plain {
 

@@ -15,7 +15,7 @@
 
 namespace myowave::observe {
 
-// The levels of V; those of solver/rhythm.hpp.
+// The levels of V; those of solver/analysis/rhythm.hpp.
 struct ActivationLevels {
   float upstroke = 0.5F;  // activation
   float rearm = 0.2F;     // V has to fall below it before the next activation

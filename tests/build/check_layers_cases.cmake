@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 function(check path line output_result status_result)
   file(REMOVE_RECURSE ${WORK})
   file(WRITE ${WORK}/kernels/base/views.hpp "#pragma once\n#include <Kokkos_Core.hpp>\n")
-  file(WRITE ${WORK}/solver/direct_solver.cpp "#include <cholmod.h>\ncholmod_common common;\n")
+  file(WRITE ${WORK}/solver/mechanics/linear/direct_solver.cpp "#include <cholmod.h>\ncholmod_common common;\n")
   file(APPEND ${WORK}/${path} "// heading\n\n${line}\n")
   execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE=${WORK} -P ${CHECK} RESULT_VARIABLE status
                   OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -30,18 +30,30 @@ function(accepts path line)
   endif()
 endfunction()
 
-rejects(kernels/base/a.hpp "#include \"kernels/cell/b.hpp\"" "kernels/base/a.hpp:3: kernels/base must not include kernels/cell")
-rejects(kernels/cell/a.hpp "#include \"kernels/tissue/b.hpp\"" "kernels/cell must not include kernels/tissue")
-rejects(kernels/tissue/a.hpp "#include <kernels/elastic/b.hpp>" "kernels/tissue must not include kernels/elastic")
-rejects(kernels/elastic/a.hpp "#include \"kernels/transfer/b.hpp\"" "kernels/elastic must not include kernels/transfer")
-rejects(kernels/transfer/a.hpp "#include \"solver/b.hpp\"" "kernels/transfer must not include solver")
-rejects(solver/a.cpp "#include \"apps/b.hpp\"" "solver must not include apps")
-rejects(solver/a.cpp "#include \"tests/support/b.hpp\"" "solver must not include tests/support/b.hpp")
+# One include that runs upwards or sideways, of each room.
+function(rejects_include room target)
+  rejects(${room}/a.cpp "#include \"${target}/b.hpp\"" "${room}/a.cpp:3: ${room} must not include ${target}")
+endfunction()
+foreach(pair
+    kernels/base:kernels/cell kernels/cell:kernels/tissue kernels/tissue:kernels/elastic kernels/elastic:kernels/transfer
+    kernels/transfer:solver/base kernels/observe:kernels/transfer
+    solver/base:solver/scene solver/scene:solver/excitation solver/excitation:solver/mechanics
+    solver/excitation:kernels/elastic solver/mechanics/linear:solver/mechanics solver/mechanics:solver/excitation
+    solver/mechanics:kernels/tissue solver/coupling:solver/analysis solver/analysis:solver/run solver/run:solver/studies
+    solver/studies:apps/base
+    apps/base:apps/input apps/input:apps/draw apps/draw:apps/input apps/results:apps/sweep apps/sweep:apps/report
+    apps/report:apps/paper apps/tradeoff:apps/stability apps/stability:apps/tradeoff apps/paper:apps/cli)
+  string(REPLACE ":" ";" pair ${pair})
+  rejects_include(${pair})
+endforeach()
+rejects(kernels/elastic/a.hpp "#include <kernels/transfer/b.hpp>" "kernels/elastic must not include kernels/transfer")
+rejects(apps/cli/a.cpp "#include \"tests/support/b.hpp\"" "apps/cli must not include tests/support/b.hpp")
 rejects(kernels/base/a.hpp "#include \"views.hpp\"" "include \"views.hpp\" by its path from the root")
-rejects(kernels/other/a.hpp "int f();" "no such folder in the layers: kernels/other")
+rejects(kernels/other/a.hpp "int f();" "no such room: kernels/other")
+rejects(solver/a.cpp "int f();" "no such room: solver")
 accepts(kernels/transfer/a.hpp "#include \"kernels/elastic/b.hpp\"\n#include \"kernels/tissue/b.hpp\"")
-accepts(solver/a.cpp "#include \"kernels/observe/b.hpp\"\n#include <vector>\nthrow 1;")
-accepts(apps/a.cpp "#include \"solver/b.hpp\"\n#include \"generated.hpp\"")
+accepts(solver/run/a.cpp "#include \"kernels/observe/b.hpp\"\n#include <vector>\nthrow 1;")
+accepts(apps/cli/a.cpp "#include \"solver/base/b.hpp\"\n#include \"generated.hpp\"")
 
 rejects(kernels/cell/a.hpp "#include <iostream>" "kernels/ must not include <iostream>")
 rejects(kernels/cell/a.hpp "#include <vector>" "kernels/ must not include <vector>")
@@ -57,8 +69,8 @@ accepts(kernels/cell/a.hpp "template <class Real>\nstruct Params;\nusing T = dou
 accepts(kernels/cell/a.hpp "struct Params {\n  double a = 0.1;\n  static double rate(double V);\n};")
 accepts(kernels/cell/a.hpp "// throw nothing, no std::vector")
 
-rejects(apps/a.cpp "  Kokkos::parallel_for(n, f);" "no parallel loop in apps/")
-accepts(apps/a.cpp "  Kokkos::ScopeGuard guard;")
-rejects(apps/a.cpp "#include <suitesparse/cholmod.h>" "apps/a.cpp, solver/direct_solver.cpp")
-rejects(solver/a.cpp "  cholmod_start(c);" "solver/a.cpp, solver/direct_solver.cpp")
-accepts(solver/a.cpp "#include <iostream>  // not cholmod.h")
+rejects(apps/cli/a.cpp "  Kokkos::parallel_for(n, f);" "no parallel loop in apps/")
+accepts(apps/cli/a.cpp "  Kokkos::ScopeGuard guard;")
+rejects(apps/cli/a.cpp "#include <suitesparse/cholmod.h>" "apps/cli/a.cpp, solver/mechanics/linear/direct_solver.cpp")
+rejects(solver/base/a.cpp "  cholmod_start(c);" "solver/base/a.cpp, solver/mechanics/linear/direct_solver.cpp")
+accepts(solver/base/a.cpp "#include <iostream>  // not cholmod.h")

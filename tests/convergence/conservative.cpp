@@ -9,8 +9,8 @@
 
 #include "kernels/tissue/monodomain_step.hpp"
 #include "kernels/transfer/deformation_to_grid.hpp"
-#include "solver/select_form.hpp"
-#include "solver/select_model.hpp"
+#include "solver/coupling/select_form.hpp"
+#include "solver/excitation/select_model.hpp"
 #include "tests/support/fields.hpp"
 #include "tests/support/reference_excitation.hpp"
 

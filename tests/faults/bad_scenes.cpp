@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/scene_file.hpp"
-#include "solver/error.hpp"
-#include "solver/stages.hpp"
+#include "apps/input/scene_file.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/stages.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 

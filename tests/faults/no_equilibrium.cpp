@@ -7,10 +7,10 @@
 #include <string>
 
 #include "kernels/elastic/element.hpp"
-#include "solver/equibiaxial.hpp"
-#include "solver/equilibrium.hpp"
-#include "solver/error.hpp"
-#include "solver/rest_state.hpp"
+#include "solver/base/error.hpp"
+#include "solver/mechanics/equibiaxial.hpp"
+#include "solver/mechanics/equilibrium.hpp"
+#include "solver/mechanics/rest_state.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {

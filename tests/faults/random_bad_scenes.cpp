@@ -18,12 +18,12 @@
 #include <variant>
 #include <vector>
 
-#include "apps/memory.hpp"
-#include "apps/scene_file.hpp"
-#include "apps/schema.hpp"
-#include "solver/error.hpp"
-#include "solver/make_plan.hpp"
-#include "solver/run.hpp"
+#include "apps/base/memory.hpp"
+#include "apps/input/scene_file.hpp"
+#include "apps/input/schema.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/make_plan.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/random_scene.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -21,7 +21,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/hdf5_handle.hpp"
+#include "apps/base/hdf5_handle.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/sheets.hpp"

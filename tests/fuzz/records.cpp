@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "apps/sweep_records.hpp"
+#include "apps/sweep/sweep_records.hpp"
 #include "tests/fuzz/file_of_bytes.hpp"
 
 namespace {

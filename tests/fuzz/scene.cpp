@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "apps/scene_file.hpp"
-#include "solver/error.hpp"
+#include "apps/input/scene_file.hpp"
+#include "solver/base/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "apps/sweep_file.hpp"
-#include "solver/error.hpp"
+#include "apps/sweep/sweep_file.hpp"
+#include "solver/base/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/electromechanics.hpp"
-#include "solver/run.hpp"
+#include "solver/coupling/electromechanics.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave {
 namespace {

@@ -1,5 +1,5 @@
 // A member of an ensemble has the bits that it has alone, whatever its company, order and number of threads.
-#include "solver/ensemble.hpp"
+#include "solver/run/ensemble.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -1,6 +1,6 @@
 // The uniform solution of the loaded, uniformly active membrane against the scalar equation
 //   2 (s - s^-2)(c1 + c2 s) + Ta = p s (follower) or p sqrt(s) (dead),   s = lambda^2.
-#include "solver/equibiaxial.hpp"
+#include "solver/mechanics/equibiaxial.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/equilibrium.hpp"
+#include "solver/mechanics/equilibrium.hpp"
 
 namespace myowave::solver {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "kernels/observe/state_check.hpp"
-#include "solver/electromechanics.hpp"
-#include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/base/error.hpp"
+#include "solver/coupling/electromechanics.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 
 namespace myowave {

@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
-#include "apps/scene_file.hpp"
-#include "solver/make_plan.hpp"
-#include "solver/run.hpp"
-#include "solver/stages.hpp"
+#include "apps/input/scene_file.hpp"
+#include "solver/run/make_plan.hpp"
+#include "solver/run/run.hpp"
+#include "solver/run/stages.hpp"
 #include "tests/support/plain_sheet.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/allclose.hpp"
 
 namespace myowave {

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <functional>
 
-#include "solver/checkpoint.hpp"
-#include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/checkpoint.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/random_run.hpp"
 #include "tests/support/recording_sink.hpp"

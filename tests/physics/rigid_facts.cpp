@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "kernels/cell/aliev_panfilov.hpp"
-#include "solver/cell_protocol.hpp"
-#include "solver/run.hpp"
+#include "solver/analysis/cell_protocol.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 
 namespace myowave {

@@ -9,10 +9,10 @@
 #include <regex>
 #include <string>
 
-#include "solver/electromechanics.hpp"
-#include "solver/error.hpp"
-#include "solver/make_plan.hpp"
-#include "solver/run.hpp"
+#include "solver/base/error.hpp"
+#include "solver/coupling/electromechanics.hpp"
+#include "solver/run/make_plan.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/allclose.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/allclose.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/reference_mechanics.hpp"

@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
-#include "solver/step_maps.hpp"
-#include "solver/step_trial.hpp"
+#include "solver/studies/step_maps.hpp"
+#include "solver/studies/step_trial.hpp"
 
 namespace myowave {
 namespace {

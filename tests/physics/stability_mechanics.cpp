@@ -5,8 +5,8 @@
 #include <Kokkos_Core.hpp>
 #include <cmath>
 
-#include "solver/equilibrium.hpp"
-#include "solver/mechanics_maps.hpp"
+#include "solver/mechanics/equilibrium.hpp"
+#include "solver/studies/mechanics_maps.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {

@@ -5,8 +5,8 @@
 #include <cfloat>
 #include <cmath>
 
-#include "solver/parameter_maps.hpp"
-#include "solver/stability.hpp"
+#include "solver/excitation/stability.hpp"
+#include "solver/studies/parameter_maps.hpp"
 
 namespace myowave::solver {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "solver/breakup.hpp"
+#include "solver/analysis/breakup.hpp"
 #include "tests/support/recording_sink.hpp"
 
 namespace myowave::solver {

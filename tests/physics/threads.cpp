@@ -7,7 +7,7 @@
 #include <fstream>
 #include <utility>
 
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "kernels/transfer/tension_to_gauss.hpp"
-#include "solver/equilibrium.hpp"
-#include "solver/run.hpp"
+#include "solver/mechanics/equilibrium.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 
 namespace myowave {

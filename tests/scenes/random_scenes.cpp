@@ -11,8 +11,8 @@
 #include <set>
 #include <string>
 
-#include "apps/scene_file.hpp"
-#include "apps/schema.hpp"
+#include "apps/input/scene_file.hpp"
+#include "apps/input/schema.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/random_scene.hpp"
 #include "tests/support/temporary_folder.hpp"

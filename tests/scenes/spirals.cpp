@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/memory.hpp"
+#include "apps/base/memory.hpp"
 #include "tests/support/scene_run.hpp"
 
 namespace myowave {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/sweep_records.hpp"
+#include "apps/sweep/sweep_records.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -282,7 +282,7 @@ TEST_F(Sweeps, RedoesOtherRevisionsWhereAsked) {
   EXPECT_EQ(reproducible("a"), expected);
 }
 
-// Fig 11's rigid spiral at mu1 = 0.1 (apps/figures/first_breakup.cpp): its state as a run of its own.
+// Fig 11's rigid spiral at mu1 = 0.1 (apps/paper/first_breakup.cpp): its state as a run of its own.
 TEST_F(Sweeps, BreakUpIsThatOfTheFigure) {
   write("scene = \"" MYOWAVE_SOURCE_DIR
         "/apps/scenes/rigid_spiral.toml\"\n"

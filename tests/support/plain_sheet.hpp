@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "kernels/transfer/tension_to_gauss.hpp"
-#include "solver/denormals.hpp"
-#include "solver/equilibrium.hpp"
-#include "solver/extrapolation.hpp"
-#include "solver/run.hpp"
-#include "solver/select_form.hpp"
-#include "solver/select_model.hpp"
+#include "solver/base/denormals.hpp"
+#include "solver/coupling/extrapolation.hpp"
+#include "solver/coupling/select_form.hpp"
+#include "solver/excitation/select_model.hpp"
+#include "solver/mechanics/equilibrium.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/fields.hpp"
 
 namespace myowave::test {

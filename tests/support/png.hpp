@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/picture.hpp"
+#include "apps/draw/picture.hpp"
 
 namespace myowave::test {
 

@@ -13,10 +13,10 @@
 #include <limits>
 #include <string>
 
-#include "apps/initial_state.hpp"
-#include "apps/scene_file.hpp"
-#include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "apps/input/initial_state.hpp"
+#include "apps/input/scene_file.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/random_scene.hpp"
 #include "tests/support/recording_sink.hpp"
 #include "tests/support/state_box.hpp"

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <variant>
 
-#include "apps/schema.hpp"
-#include "solver/rest_state.hpp"
+#include "apps/input/schema.hpp"
+#include "solver/mechanics/rest_state.hpp"
 
 namespace myowave::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave::test {
 

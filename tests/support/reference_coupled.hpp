@@ -1,7 +1,7 @@
 // The coupled step in its order, on top of the plain references of its two halves.
 #pragma once
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 #include "tests/support/reference_excitation.hpp"
 
 namespace myowave::reference {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 #include "tests/support/reference_mechanics.hpp"
 
 namespace myowave::reference {

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace myowave::reference {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave::test {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "kernels/cell/aliev_panfilov.hpp"
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 
 int main() {
   const Kokkos::ScopeGuard kokkos;

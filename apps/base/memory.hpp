@@ -1,0 +1,32 @@
+// Whether a scene fits this machine's memory, asked before anything is allocated.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "solver/scene/scene.hpp"
+
+namespace myowave::apps {
+
+// Bytes that can be had without swapping; empty where the system does not tell.
+std::optional<std::uint64_t> free_memory();
+
+// Bytes that a run takes of the host's memory, and of a device's where that is another.
+struct MemoryNeed {
+  std::uint64_t host = 0, device = 0;
+};
+MemoryNeed memory_need(const solver::Scene&);
+
+// How many runs at once fit, each of which needs at most that much: no more than `wanted`, and at least one.
+// What is not known to be free sets no bound.
+int runs_that_fit(int wanted, const MemoryNeed&, const std::optional<std::uint64_t>& free_host,
+                  const std::optional<std::uint64_t>& free_device);
+
+// "1.5 GiB"
+std::string bytes_text(std::uint64_t bytes);
+
+// Errors: InputError that names what is needed and what is free.
+void require_memory(const solver::Scene&);
+
+}  // namespace myowave::apps

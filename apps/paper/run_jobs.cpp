@@ -1,0 +1,214 @@
+#include "apps/paper/run_jobs.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <toml++/toml.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "apps/base/file_io.hpp"
+#include "myowave_version.hpp"
+#include "solver/base/error.hpp"
+
+namespace myowave::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string last_line(const fs::path& path) {
+  std::istringstream text(content(path));
+  std::string last;
+  for (std::string line; std::getline(text, line);)
+    if (!line.empty()) last = line;
+  return last;
+}
+
+// Threads of each of the runs that go on at once; theirs are not bound, or all would share the first cores.
+void share_threads(int parallel) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  setenv("OMP_NUM_THREADS", std::to_string(std::max(1, cores / parallel)).c_str(), 1);
+  setenv("OMP_PROC_BIND", "false", 1);
+}
+
+// Where the jobs of a folder have their files.
+struct JobFiles {
+  fs::path scene, run, log;
+  JobFiles(const fs::path& folder, const std::string& name)
+      : scene(folder / "scenes" / (name + ".toml")),
+        run(folder / "runs" / name),
+        log(folder / "runs" / (name + ".log")) {}
+};
+
+// Its results are there, whole, from the same scene and the same program.
+bool is_done(const JobFiles& files, const std::string& scene) {
+  if (git_dirty || content(files.scene) != scene) return false;
+  const auto summary = nlohmann::json::parse(content(files.run / "summary.json"), nullptr, false);
+  const auto manifest = nlohmann::json::parse(content(files.run / "manifest.json"), nullptr, false);
+  if (summary.is_discarded() || manifest.is_discarded()) return false;
+  return summary.contains("failure") && summary["failure"].is_null() &&
+         manifest["program"]["git_hash"] == git_hash;
+}
+
+// In the child, between fork and exec: only calls that are safe there.
+[[noreturn]] void become(const char* const* arguments, const char* log) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with its parent, however that ends
+#endif
+  const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file >= 0) {
+    dup2(file, STDOUT_FILENO);
+    dup2(file, STDERR_FILENO);
+  }
+  execv(arguments[0], const_cast<char* const*>(arguments));
+  _exit(127);
+}
+
+pid_t begin(const fs::path& program, const JobFiles& files) {
+  const std::vector<std::string> words{
+      program.string(), "run", files.scene.string(), "--out", files.run.string(), "--force", "--quiet"};
+  std::vector<const char*> arguments;
+  for (const auto& word : words) arguments.push_back(word.c_str());
+  arguments.push_back(nullptr);
+  const std::string log = files.log.string();
+  const pid_t child = fork();
+  if (child == 0) become(arguments.data(), log.c_str());
+  if (child < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)));
+  return child;
+}
+
+class JobQueue {
+ public:
+  JobQueue(fs::path program, std::span<const Job> jobs, fs::path folder, int parallel,
+           const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told)
+      : program_(std::move(program)),
+        jobs_(jobs),
+        folder_(std::move(folder)),
+        parallel_(std::max(1, parallel)),
+        told_(told) {
+    for (const Job& job : jobs_)
+      for (const auto& need : job.needs)
+        if (std::ranges::find(jobs_, need, &Job::name) == jobs_.end())
+          throw solver::InputError(fmt::format("job {} needs {}, which is none of the jobs", job.name, need));
+    fs::create_directories(folder_ / "scenes");
+    fs::create_directories(folder_ / "runs");
+    share_threads(parallel_);
+  }
+
+  std::map<std::string, JobOutcome> run() {
+    while (outcomes_.size() < jobs_.size()) {
+      const std::size_t before = outcomes_.size();
+      for (const Job& job : jobs_)
+        if (running_.size() < static_cast<std::size_t>(parallel_)) try_to_begin(job);
+      if (!running_.empty())
+        wait_for_one();
+      else if (outcomes_.size() == before)
+        throw solver::InputError("jobs that need one another cannot begin");
+    }
+    return std::move(outcomes_);
+  }
+
+ private:
+  struct Running {
+    const Job* job;
+    Clock::time_point start;
+  };
+
+  void try_to_begin(const Job& job) {
+    if (outcomes_.contains(job.name) || is_running(job)) return;
+    bool reusable = true;
+    for (const auto& need : job.needs) {
+      const auto outcome = outcomes_.find(need);
+      if (outcome == outcomes_.end()) return;
+      if (!outcome->second.ok())
+        return end(job, {-1, fmt::format("{}, whose result it needs, failed", need), 0, false});
+      reusable = reusable && outcome->second.reused;
+    }
+    const JobFiles files(folder_, job.name);
+    if (reusable && is_done(files, job.scene)) return end(job, {0, "", 0, true});
+    // First, so that results beside the new scene are never those of an old one.
+    fs::remove_all(files.run);
+    replace_file(files.scene, job.scene);
+    running_.emplace(begin(program_, files), Running{&job, Clock::now()});
+  }
+
+  bool is_running(const Job& job) const {
+    return std::ranges::any_of(running_, [&](const auto& entry) { return entry.second.job == &job; });
+  }
+
+  void wait_for_one() {
+    int status = 0;
+    pid_t child = 0;
+    do child = waitpid(-1, &status, 0);
+    while (child < 0 && errno == EINTR);
+    if (child < 0) throw std::runtime_error(fmt::format("cannot wait for a run: {}", std::strerror(errno)));
+    const auto found = running_.find(child);
+    if (found == running_.end()) return;
+    const auto [job, start] = found->second;
+    running_.erase(found);
+    JobOutcome outcome;
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (!outcome.ok()) outcome.message = last_line(JobFiles(folder_, job->name).log);
+    end(*job, outcome);
+  }
+
+  void end(const Job& job, const JobOutcome& outcome) {
+    outcomes_[job.name] = outcome;
+    told_(job.name, outcome, outcomes_.size());
+  }
+
+  fs::path program_;
+  std::span<const Job> jobs_;
+  fs::path folder_;
+  int parallel_;
+  const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told_;
+  std::map<pid_t, Running> running_;
+  std::map<std::string, JobOutcome> outcomes_;
+};
+
+}  // namespace
+
+SceneText& SceneText::set(std::string_view key, std::string_view value) {
+  toml::table scene = toml::parse(text_);
+  const toml::table given = toml::parse(fmt::format("value = {}", value));
+  toml::node* place = &scene;
+  for (auto dot = key.find('.'); dot != std::string_view::npos; dot = key.find('.')) {
+    const std::string part(key.substr(0, dot));
+    place = place->is_array() ? place->as_array()->get(std::stoul(part))
+                              : &place->as_table()->insert(part, toml::table{}).first->second;
+    key.remove_prefix(dot + 1);
+  }
+  place->as_table()->insert_or_assign(key, *given.get("value"));
+  std::ostringstream text;
+  text << scene << '\n';
+  text_ = text.str();
+  return *this;
+}
+
+std::map<std::string, JobOutcome> run_jobs(
+    const fs::path& program, std::span<const Job> jobs, const fs::path& folder, int parallel,
+    const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told) {
+  return JobQueue(program, jobs, folder, parallel, told).run();
+}
+
+}  // namespace myowave::apps

@@ -1,0 +1,152 @@
+#include "apps/results/estimate.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "apps/input/initial_state.hpp"
+#include "apps/results/run_folder.hpp"
+#include "solver/run/run.hpp"
+
+namespace myowave::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Waves take about a rotation of a spiral, 27 t.u., to look as they will. On large sheets less is done: so
+// many node steps take a third of a second.
+constexpr double begin_tu = 40, begin_node_steps = 3e8;
+constexpr double watched_s = 1.3;
+
+double begin_of(double duration, const solver::Scene& scene) {
+  const double nodes = static_cast<double>(scene.grid.rows) * scene.grid.columns;
+  return std::min({duration, begin_tu, std::max(1.0, begin_node_steps / nodes) * scene.time.dt});
+}
+
+struct Enough {};
+
+// Follows one stage of a run, until it has been watched for long enough.
+class Trial final : public solver::OutputSink {
+ public:
+  explicit Trial(std::string stage, solver::OutputSink& outputs,
+                 double budget_s = std::numeric_limits<double>::infinity())
+      : stage_(std::move(stage)), outputs_(outputs), budget_s_(budget_s), start_(Clock::now()) {}
+
+  // The time from the start of the trial to the end of the stage at t_end.
+  double extrapolated(double t_end) const {
+    return last_.t > 0 ? first_s_ + (last_s_ - first_s_) * t_end / last_.t : last_s_;
+  }
+
+  void fields(const solver::Frame& frame) override { outputs_.fields(frame); }
+  void probes(double t, std::span<const double> values) override { outputs_.probes(t, values); }
+  void tips(double t, std::span<const solver::Tip> tips) override { outputs_.tips(t, tips); }
+  void trajectory(const solver::TipTrajectory& one) override { outputs_.trajectory(one); }
+  void area(double t, double total, double min, double max) override { outputs_.area(t, total, min, max); }
+  void element_areas(double t, std::span<const double> ratios) override { outputs_.element_areas(t, ratios); }
+  void beat(const solver::ProbeBeat& beat) override { outputs_.beat(beat); }
+  void maps(const solver::ActivationMaps& maps) override { outputs_.maps(maps); }
+  bool wants_fields() const override { return outputs_.wants_fields(); }
+
+  // First at t = 0, when the sheet is made, solved and shown: that is done once.
+  void progress(const solver::Progress& now) override {
+    if (now.stage != stage_) return;
+    last_ = now;
+    last_s_ = seconds_since(start_);
+    if (now.t == 0) first_s_ = last_s_;
+    if (now.t > 0 && last_s_ > budget_s_) throw Enough();
+  }
+
+ private:
+  std::string stage_;
+  solver::OutputSink& outputs_;
+  double budget_s_;
+  Clock::time_point start_;
+  solver::Progress last_;
+  double first_s_ = 0, last_s_ = 0;
+};
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder()
+      : path_(std::filesystem::temp_directory_path() / fmt::format("myowave_check_{}", getpid())) {}
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// How long the scene takes to t_end; goes on from the state to that of its begin.
+double seconds_of_begin(solver::Scene scene, solver::InitialState& state) {
+  const double t_end = std::exchange(scene.time.t_end, begin_of(scene.time.t_end, scene));
+  solver::OutputSink nowhere;
+  solver::RunSummary summary;
+  Trial trial("run", nowhere);
+  state = solver::run(scene, std::move(state), trial, summary);
+  return trial.extrapolated(t_end);
+}
+
+double seconds_of_precondition(solver::Scene scene, const solver::Precondition& one,
+                               solver::InitialState& state) {
+  scene.time.t_end = 0;
+  scene.initial.preconditions = {one};
+  scene.initial.preconditions[0].duration = begin_of(one.duration, scene);
+  solver::OutputSink nowhere;
+  solver::RunSummary summary;
+  Trial trial("precondition 1 of 1", nowhere);
+  state = solver::run(scene, std::move(state), trial, summary);
+  return trial.extrapolated(one.duration);
+}
+
+double seconds_with_outputs(const solver::Scene& scene, solver::InitialState state) {
+  const TemporaryFolder temporary;
+  RunFolder folder(temporary.path(), scene, true, true);
+  solver::RunSummary summary;
+  Trial trial("run", folder, watched_s);
+  try {
+    solver::run(scene, std::move(state), trial, summary);
+  } catch (const Enough&) {
+    // The trial has what it needs.
+  }
+  return trial.extrapolated(scene.time.t_end);
+}
+
+}  // namespace
+
+Estimate estimate(const solver::Scene& given) {
+  Estimate result;
+  solver::Scene scene = given;
+  solver::InitialState state;
+  if (const auto settling = spiral_to_settle(scene)) {
+    solver::InitialState other_sheet = solver::make_initial_state(*settling);
+    result.settling_s = seconds_of_begin(*settling, other_sheet);
+    scene.initial = settling->initial;
+    state = solver::make_initial_state(scene);
+  } else {
+    solver::OutputSink nowhere;
+    state = resolve_initial_state(scene, nowhere);
+  }
+  scene.initial.preconditions.clear();
+  for (const auto& one : given.initial.preconditions)
+    result.preconditions_s += seconds_of_precondition(scene, one, state);
+  if (given.initial.preconditions.empty()) seconds_of_begin(scene, state);
+  result.scene_s = seconds_with_outputs(scene, std::move(state));
+  return result;
+}
+
+}  // namespace myowave::apps

@@ -1,0 +1,88 @@
+// The records of a sweep: what each finished run found, a JSON line a run, in a file a shard.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "solver/base/run_output.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace myowave::apps {
+
+struct SweepRun;
+
+// Part `number` of `count`, from 1: every count-th run.
+struct Shard {
+  std::size_t number = 1, count = 1;
+  std::string name() const;  // "shard_1_of_1"
+  bool has(std::size_t run) const { return run % count == number - 1; }
+};
+
+// The layout of records, and of sweep.json.
+inline constexpr int sweep_schema = 1;
+
+// A run that ended, or failed. Of the observables those that are kept.
+nlohmann::ordered_json record_json(const SweepRun&, const solver::RunSummary&,
+                                   const std::vector<std::string>& observables,
+                                   const std::optional<std::string>& failure);
+
+// With its checksum and the end of the line.
+std::string record_line(const nlohmann::ordered_json&);
+
+struct Records {
+  // By id. Of several of a run: one that did not fail before one that did, then one of this revision of the
+  // program, then the last.
+  std::map<std::string, nlohmann::ordered_json> by_id;
+  // What is no record, with its file and line and what to do.
+  std::vector<std::string> refused;
+};
+
+// The whole records of all shards. A last line without an end is one that a kill cut short, and is left out
+// without a word. Errors: std::runtime_error where a file cannot be read.
+Records read_records(const std::filesystem::path& sweep_folder);
+
+bool failed(const nlohmann::ordered_json& record);
+bool of_this_revision(const nlohmann::ordered_json& record);
+
+// A lock that ends with its owner, however that ends.
+class ShardLock {
+ public:
+  // Errors: std::runtime_error that tells the owner where there is one, or why the file cannot be written.
+  explicit ShardLock(const std::filesystem::path& file);
+  ~ShardLock();
+  ShardLock(const ShardLock&) = delete;
+  ShardLock& operator=(const ShardLock&) = delete;
+
+  // The owner's own words; empty where nobody holds the lock.
+  static std::string owner_of(const std::filesystem::path& file);
+
+ private:
+  int file_;
+};
+
+// The records of one shard, for the process that holds its lock.
+class RecordFile {
+ public:
+  // Cuts off what a kill left of a line.
+  // Errors, also of append: std::runtime_error "cannot write FILE: reason"; the records before are whole.
+  explicit RecordFile(std::filesystem::path);
+  ~RecordFile();
+  RecordFile(const RecordFile&) = delete;
+  RecordFile& operator=(const RecordFile&) = delete;
+
+  // On the disk when this returns.
+  void append(const nlohmann::ordered_json& record);
+
+ private:
+  [[noreturn]] void refuse(const std::string& reason) const;
+  void require_in_place() const;
+
+  std::filesystem::path path_;
+  int file_;
+};
+
+}  // namespace myowave::apps

@@ -1,0 +1,53 @@
+// The pointwise model of a scene as a compile-time kernel variant. solver/coupling/select_form.hpp selects
+// the form of diffusion.
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/cell/active_tension.hpp"
+#include "kernels/cell/aliev_panfilov.hpp"
+#include "kernels/tissue/monodomain_step.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace myowave::solver {
+
+template <class Real, class Scheme = tissue::ForwardEuler>
+using Model = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::ActiveTension<Real>, Scheme>;
+
+// Where nothing asks for Ta.
+template <class Real, class Scheme = tissue::ForwardEuler>
+using ModelWithoutTension = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::NoTension, Scheme>;
+
+// The stencil whose error a scheme's takes away.
+template <class Scheme>
+inline constexpr tissue::Stencil stencil_of =
+    std::is_same_v<Scheme, tissue::SplitStep> ? tissue::Stencil::nine_point : tissue::Stencil::five_point;
+
+template <class Real>
+Model<Real> make_model(const ExcitationSettings& e, const TensionSettings& t) {
+  return {{Real(e.k), Real(e.a), Real(e.b), Real(e.eps), Real(e.mu1), Real(e.mu2)},
+          {Real(t.k_Ta), Real(t.eps_below), Real(t.eps_above), Real(t.threshold)},
+          Real(e.D),
+          Real(1 / e.C_m)};
+}
+
+// The same that takes its steps by another scheme.
+template <class Scheme, class Real>
+Model<Real, Scheme> in_scheme(const Model<Real>& model) {
+  return {model.cell, model.tension, model.D, model.inverse_C_m};
+}
+template <class Scheme, class Real>
+ModelWithoutTension<Real, Scheme> without_tension(const Model<Real>& model) {
+  return {model.cell, {}, model.D, model.inverse_C_m};
+}
+
+// action(model), by a scheme, with Ta or without.
+template <class Scheme, class Real, class Action>
+void with_model(const Scene& scene, const Model<Real>& model, const Action& action) {
+  if (has_tension(scene))
+    action(in_scheme<Scheme>(model));
+  else
+    action(without_tension<Scheme>(model));
+}
+
+}  // namespace myowave::solver

@@ -1,0 +1,87 @@
+#include "solver/base/denormals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+
+#include "solver/run/run.hpp"
+#include "tests/support/own_process.hpp"
+
+namespace myowave::solver {
+namespace {
+
+// By the bits: once denormals are taken for zero, std::fpclassify takes them so too.
+bool is_denormal(double value) {
+  constexpr std::uint64_t exponent = 0x7ff0000000000000, mantissa = 0x000fffffffffffff;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  return (bits & exponent) == 0 && (bits & mantissa) != 0;
+}
+
+TEST(Denormals, AreToldFromZeroByTheirBits) {
+  EXPECT_TRUE(is_denormal(std::numeric_limits<double>::denorm_min()));
+  EXPECT_TRUE(is_denormal(-std::numeric_limits<double>::denorm_min()));
+  EXPECT_FALSE(is_denormal(std::numeric_limits<double>::min()));
+  EXPECT_FALSE(is_denormal(0));
+}
+
+// Threads on which half of the smallest normal number is not zero.
+int threads_with_denormals() {
+  using Host = Kokkos::DefaultHostExecutionSpace;
+  const int threads = Host().concurrency();
+  int count = 0;
+  Kokkos::parallel_reduce(
+      "threads_with_denormals",
+      Kokkos::RangePolicy<Host, Kokkos::Schedule<Kokkos::Static>>(0, threads).set_chunk_size(1),
+      [](int, int& sum) {
+        const volatile double smallest = std::numeric_limits<double>::min();
+        const volatile double half = smallest * 0.5;
+        sum += std::bit_cast<std::uint64_t>(static_cast<double>(half)) != 0 ? 1 : 0;
+      },
+      count);
+  return count;
+}
+
+TEST(Denormals, AreFlushedOnEveryThread) {
+  if (const std::string path = test::report_path(); !path.empty()) {
+    std::ofstream report(path);
+    report << threads_with_denormals();
+    flush_denormals();
+    report << ' ' << threads_with_denormals();
+    return;
+  }
+  EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=1"), "1 0");
+  if (Kokkos::DefaultHostExecutionSpace::name() == std::string("OpenMP")) {
+    EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=3"), "3 0");
+  }
+}
+
+// V decays as exp(-k a t) = exp(-0.8 t) at rest: from 1e-304 it is denormal from t = 12 on and
+// still above the smallest one at t = 20.
+TEST(Denormals, DoNotStayInASheetAtRest) {
+  Scene scene;
+  scene.grid = {121, 121, 0.6};
+  scene.time.t_end = 20;
+  InitialState state = make_initial_state(scene);
+  for (int i = 0; i < 121; ++i)
+    for (int j = 0; j < 121; ++j) state.V[i * 121 + j] = 1e-304 * (1.5 + std::sin(0.1 * i + 0.2 * j));
+  ASSERT_TRUE(is_denormal(1e-304 * std::exp(-0.8 * 20)));
+
+  OutputSink sink;
+  RunSummary summary;
+  const InitialState end = run(scene, state, sink, summary);
+  EXPECT_EQ(std::count_if(end.V.begin(), end.V.end(), is_denormal), 0);
+  EXPECT_EQ(std::count_if(end.r.begin(), end.r.end(), is_denormal), 0);
+  EXPECT_EQ(std::count_if(end.Ta.begin(), end.Ta.end(), is_denormal), 0);
+  // It has come down to where its change dt k a V is flushed, if the processor rounds that product
+  // before it adds it.
+  const double change = scene.time.dt * scene.excitation.k * scene.excitation.a;
+  EXPECT_LT(*std::max_element(end.V.begin(), end.V.end()), std::numeric_limits<double>::min() / change);
+}
+
+}  // namespace
+}  // namespace myowave::solver

@@ -1,0 +1,158 @@
+// Newton's globalisation on potentials of one unknown, by hand.
+#include "solver/mechanics/newton.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace myowave::solver {
+namespace {
+
+// Pi(x) with first and second derivative, admissible for x > 0; L = 1.
+struct Toy {
+  std::function<double(double)> energy, slope, curvature;
+  double x = 1, tried = 0, direction = 0;
+  std::vector<double> R{0}, K{0};
+  int evaluations = 0;
+
+  Trial at(double position) {
+    ++evaluations;
+    return {.energy = energy(position), .min_J = position};
+  }
+  Trial evaluate() { return at(x); }
+  void linearize() {
+    R[0] = slope(x);
+    K[0] = curvature(x);
+  }
+  std::span<const double> residual() const { return R; }
+  std::span<const double> tangent(double shift) {
+    shifted[0] = K[0] + shift;
+    return shifted;
+  }
+  void set_direction(std::span<const double> d) { direction = d[0]; }
+  Trial move(double length) { return at(tried = x + length * direction); }
+  void accept() { x = tried; }
+
+  std::vector<double> shifted{0};
+};
+
+NewtonReport minimise(Toy& toy, NewtonSettings settings = {}) {
+  DirectSolver solver(std::vector<int>{0, 1}, std::vector<int>{0});
+  return Newton(toy, solver, settings).minimise();
+}
+
+TEST(Newton, ReachesAQuadraticMinimumInOneStep) {
+  Toy toy{.energy = [](double x) { return (x - 3) * (x - 3); },
+          .slope = [](double x) { return 2 * (x - 3); },
+          .curvature = [](double) { return 2; }};
+  const auto report = minimise(toy);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.iterations, 1);
+  EXPECT_EQ(report.shifts, 0);
+  EXPECT_DOUBLE_EQ(toy.x, 3);
+}
+
+// x - ln x: from 4 the full step goes to 4 - 4^2 (3/4) = -8, half of it to -2, a quarter to 1.
+TEST(Newton, HalvesAStepThatIsNotAdmissible) {
+  Toy toy{.energy = [](double x) { return x - std::log(x); },
+          .slope = [](double x) { return 1 - 1 / x; },
+          .curvature = [](double x) { return 1 / (x * x); },
+          .x = 4};
+  const auto report = minimise(toy);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.iterations, 1);
+  EXPECT_EQ(report.halvings, 2);
+  EXPECT_DOUBLE_EQ(toy.x, 1);
+}
+
+// x^4/4 - x^2/2 has its minimum at 1 and negative curvature below 1/sqrt 3: plain Newton from 0.3
+// would go to the maximum at 0.
+TEST(Newton, ShiftsANegativeCurvature) {
+  Toy toy{.energy = [](double x) { return x * x * (x * x - 2) / 4; },
+          .slope = [](double x) { return x * x * x - x; },
+          .curvature = [](double x) { return 3 * x * x - 1; },
+          .x = 0.3};
+  const auto report = minimise(toy);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.shifts, 0);
+  EXPECT_EQ(report.largest_shift, 4);
+  EXPECT_NEAR(toy.x, 1, 1e-8);
+}
+
+TEST(Newton, APotentialWithoutMinimumIsGivenUp) {
+  Toy toy{.energy = [](double x) { return -std::log(x); },
+          .slope = [](double x) { return -1 / x; },
+          .curvature = [](double x) { return 1 / (x * x); }};
+  const auto report = minimise(toy, {.tolerance = 1e-30});
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.iterations, 60);
+}
+
+// The slope is wrong: no length ever decreases Pi. The shift grows until the step is no more than
+// rounding, and the attempts are counted.
+TEST(Newton, AStepThatIsNeverAcceptedIsGivenUp) {
+  Toy toy{.energy = [](double x) { return x; },
+          .slope = [](double) { return -1; },
+          .curvature = [](double) { return 1; }};
+  const auto report = minimise(toy, {.energy_noise = 0});
+  EXPECT_FALSE(report.converged);
+  EXPECT_LE(report.factorizations, 120);
+  EXPECT_NEAR(toy.x, 1, 1e-12);
+}
+
+// Near the minimum of 1e9 + (x - 1)^2 the decrease is below the rounding of Pi.
+TEST(Newton, RoundingOfTheEnergyDoesNotStopTheLastSteps) {
+  Toy toy{.energy = [](double x) { return 1e9 + (x - 1) * (x - 1); },
+          .slope = [](double x) { return 2 * (x - 1); },
+          .curvature = [](double) { return 2; },
+          .x = 1 + 1e-6};
+  const auto report = minimise(toy, {.tolerance = 1e-12});
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.iterations, 1);
+}
+
+// (x - c)^2 / 2 + x^4 / 4 with c moved: the factor of the old minimum gives the first step.
+TEST(Newton, StartsWithTheFactorOfTheLastMinimum) {
+  double c = 2;
+  Toy toy{.energy = [&](double x) { return (x - c) * (x - c) / 2 + x * x * x * x / 4; },
+          .slope = [&](double x) { return x - c + x * x * x; },
+          .curvature = [](double x) { return 1 + 3 * x * x; },
+          .x = 1.5};
+  DirectSolver solver(std::vector<int>{0, 1}, std::vector<int>{0});
+  ASSERT_TRUE(Newton(toy, solver, NewtonSettings{}).minimise().converged);
+  EXPECT_NEAR(toy.x, 1, 1e-8);
+  c = 2.1;
+  const auto report = Newton(toy, solver, NewtonSettings{}).minimise(true);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.factorizations, report.iterations - 1);
+  EXPECT_NEAR(toy.x - c + toy.x * toy.x * toy.x, 0, 1e-8);
+}
+
+// The factor of a maximum leads uphill: it is not followed.
+TEST(Newton, AFactorThatLeadsUphillIsLeft) {
+  Toy toy{.energy = [](double x) { return (x - 3) * (x - 3); },
+          .slope = [](double x) { return 2 * (x - 3); },
+          .curvature = [](double) { return 2; }};
+  DirectSolver solver(std::vector<int>{0, 1}, std::vector<int>{0});
+  solver.factorize(std::vector<double>{-1});
+  const auto report = Newton(toy, solver, NewtonSettings{}).minimise(true);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.factorizations, 1);
+  EXPECT_DOUBLE_EQ(toy.x, 3);
+}
+
+TEST(Newton, NotANumberIsGivenUpAtOnce) {
+  Toy toy{.energy = [](double) { return std::nan(""); },
+          .slope = [](double) { return 0; },
+          .curvature = [](double) { return 1; }};
+  EXPECT_FALSE(minimise(toy).converged);
+  Toy residual{.energy = [](double) { return 0; },
+               .slope = [](double) { return std::nan(""); },
+               .curvature = [](double) { return 1; }};
+  EXPECT_FALSE(minimise(residual).converged);
+}
+
+}  // namespace
+}  // namespace myowave::solver
