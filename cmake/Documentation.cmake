@@ -29,6 +29,7 @@ set(DOXYGEN_PREDEFINED KOKKOS_FUNCTION= KOKKOS_INLINE_FUNCTION=inline KOKKOS_FOR
 
 get_target_property(kernel_headers myowave_kernels HEADER_SET)
 get_target_property(solver_headers myowave_solver HEADER_SET)
-doxygen_add_docs(docs README.md apps/README.md apps/cli/tutorial.md bench/README.md cmake/README.md
-  cmake/packaging/README.md kernels/README.md solver/README.md tests/README.md ${kernel_headers} ${solver_headers}
+file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} apps/*.md bench/*.md cmake/*.md kernels/*.md solver/*.md
+     tests/*.md)
+doxygen_add_docs(docs README.md ${pages} ${kernel_headers} ${solver_headers}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Writing ${PROJECT_BINARY_DIR}/docs/html")

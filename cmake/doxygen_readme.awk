@@ -3,6 +3,7 @@
 
 function label(folder, title) {
   sub(/README\.md$/, "", folder)
+  sub(/\.md$/, "-", folder)
   gsub(/\//, "-", folder)
   title = tolower(title)
   gsub(/[^a-z0-9 _-]/, "", title)
@@ -22,7 +23,8 @@ function resolved(path,    folder) {
 }
 
 function target(link,    at) {
-  if (link ~ /:\/\/|\.(png|svg)$|README\.md$/) return link
+  if (link ~ /:\/\/|README\.md$/) return link
+  if (link ~ /\.(png|svg)$/) return resolved(link)
   at = index(link, "#")
   if (at == 0) return ""
   return "@ref " label(at == 1 ? page : resolved(substr(link, 1, at - 1)), substr(link, at + 1))
