@@ -37,7 +37,7 @@ function(does_not_tell name sentence)
 endfunction()
 
 tells(index "myowave simulates excitable muscle")
-tells(md_solver_README "Order of a step s, t = s dt")
+tells(md_solver_MODEL "Order of a step s, t = s dt")
 tells(plan_8hpp "What a scene requires: which parts of the model run")
 tells(namespacemyowave_1_1solver "Plan make_plan (const Scene &) 64-bit arithmetic, nothing is allocated")
 tells(structmyowave_1_1solver_1_1SolveReport "double min_J = 0 smallest det F at any corner of any element")
