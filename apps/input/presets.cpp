@@ -39,7 +39,7 @@ constexpr std::array large_steps{
 
 // dt near dx^2 / (6 D), where the errors of the split scheme go. On a contracting sheet dx is that of the
 // front, which runs into what is stretched; elements of 6 length units have seven cells a side, or eight.
-// Measured errors and speeds: README.md.
+// Measured errors and speeds: apps/tradeoff/ACCURACY.md.
 constexpr auto fast = joined(large_steps, std::array{
                                               PresetValue{"accuracy.dx", "1.15", Sheet::rigid},
                                               PresetValue{"time.dt", "0.2", Sheet::rigid},

@@ -45,7 +45,7 @@ CleanRange clean_range(const Scene&, const InitialState&);
 
 // V that alternates from node to node and from step to step by more than this, without decaying, is noise.
 // Clean runs reach 0.0008, and 0.024 where D is so small that a front is sharper than the grid; past the
-// bound it is 0.04 to 0.5 (solver/README.md).
+// bound it is 0.04 to 0.5 (solver/studies/unstable_steps.md).
 inline constexpr double largest_clean_noise = 0.03;
 
 // Refuses steps that are certainly unstable: dt past the bound of the undeformed sheet, eps dt > 1, a

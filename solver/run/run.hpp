@@ -1,4 +1,4 @@
-// The whole run: order of a step, sampling, watchers, summary. See model order in solver/README.md.
+// The whole run: order of a step, sampling, watchers, summary. The order of a step: solver/MODEL.md.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // Schemes for Eqs 22a, b on a plane wave, as plain loops: how far off they are for how many looks at the
-// neighbours. `--gtest_filter=*Table*` prints what solver/README.md shows.
+// neighbours. `--gtest_filter=*Table*` prints what solver/studies/split_step.md shows.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +19,8 @@ using Values = std::vector<double>;
 
 const cell::AlievPanfilov<double> model;
 
-// The velocity of the plane wave in the limit of small steps (split at dx = 0.15 and 0.1; solver/README.md).
+// The velocity of the plane wave in the limit of small steps (split at dx = 0.15 and 0.1; see
+// solver/studies/split_step.md).
 constexpr double true_velocity = 1.589;
 
 // A wave along the rows of a grid, or along its diagonal, where lines of equal V are half a diagonal apart.

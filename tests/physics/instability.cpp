@@ -69,7 +69,7 @@ struct Unguarded {
   double t = 0, largest_noise = 0, largest_V = 0;  // noise and V from t = 2 on
 };
 
-// For the tables of solver/README.md: --gtest_output=json:FILE.
+// For the tables of solver/studies/unstable_steps.md: --gtest_output=json:FILE.
 void record(double dt, const Unguarded& seen) {
   ::testing::Test::RecordProperty(
       fmt::format("dt_{:.0f}e-4", 1e4 * dt),
