@@ -6,8 +6,8 @@
 
 namespace myowave::apps {
 
-// The content of a file by its name without folder, or of a README.md by its folder's: "solver.md", at the
-// root "myowave.md". Empty where it is not compiled in.
+// The content of a file: Markdown by its path from the root of the project, "apps/sweep/README.md"; any other
+// file by its name without folder, "quickstart.toml". Empty if it is not compiled in.
 std::string_view embedded_file(std::string_view name);
 
 }  // namespace myowave::apps

@@ -55,7 +55,7 @@ struct SweepCommand {
 
   explicit SweepCommand(CLI::App& app) {
     command = app.add_subcommand("sweep", "Do many runs of a scene, and go on where they were stopped");
-    command->add_option("SWEEP", request.file, "Sweep file (TOML), see apps/README.md");
+    command->add_option("SWEEP", request.file, "Sweep file (TOML), see apps/sweep/README.md");
     command
         ->add_option("--out", request.out,
                      "The sweep's folder; without it out/<sweep> in the working directory")
@@ -200,7 +200,8 @@ int main(int argc, char** argv) {
   bool markdown = false;
   CLI::App* describe = app.add_subcommand("describe", "Print the reference of scene files");
   describe->add_option("SECTION", section, "Only this section, for example mechanics");
-  describe->add_flag("--markdown", markdown, "All sections as the Markdown tables of apps/README.md");
+  describe->add_flag("--markdown", markdown,
+                     "All sections as the Markdown tables of apps/input/REFERENCE.md");
 
   apps::StabilityRequest maps;
   CLI::App* stability = app.add_subcommand(
@@ -278,8 +279,9 @@ int main(int argc, char** argv) {
     if (tradeoff.command->parsed()) tradeoff.run();
     if (info->parsed()) apps::info();
     if (help->parsed() && topic.empty()) fmt::print("{}\n{}", app.help(), apps::topic_names());
-    if (help->parsed() && !topic.empty())
-      fmt::print("{}",
-                 is_command(topic) ? app.get_subcommand(topic)->help("myowave") : apps::help_text(topic));
+    // Some commands are topics too.
+    if (help->parsed() && is_command(topic)) fmt::print("{}", app.get_subcommand(topic)->help("myowave"));
+    if (help->parsed() && !topic.empty() && (apps::is_topic(topic) || !is_command(topic)))
+      fmt::print("{}", apps::help_text(topic));
   });
 }

@@ -1,5 +1,6 @@
 #include "apps/cli/help.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 namespace myowave::apps {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -29,14 +31,29 @@ TEST(Help, EachTopicHasItsText) {
 }
 
 // What a user of the command reads is no farther away than `myowave help`.
-TEST(Help, EachSectionOfTheCommandsReadmeIsATopicOrTheReference) {
-  const std::string readme(embedded_file("apps.md"));
-  ASSERT_GT(readme.size(), 10000U);
-  for (std::size_t at = readme.find("\n## "); at != std::string::npos; at = readme.find("\n## ", at + 1)) {
-    const std::string heading = readme.substr(at + 4, readme.find('\n', at + 4) - at - 4);
-    if (heading == "Files here" || heading == "Scene reference") continue;  // the latter is `describe`
-    EXPECT_NE(std::ranges::find(help_topics(), heading, &HelpTopic::heading), help_topics().end()) << heading;
+TEST(Help, EachSectionForUsersIsInATopic) {
+  std::string shown;
+  for (const HelpTopic& topic : help_topics()) shown += '\n' + help_text(topic.name);
+  for (const char* room : {"", "cli/", "input/", "results/", "sweep/", "report/", "tradeoff/", "stability/",
+                           "paper/", "scenes/"}) {
+    const std::string readme(embedded_file(fmt::format("apps/{}README.md", room)));
+    ASSERT_THAT(readme, StartsWith("# ")) << room;
+    for (std::size_t at = readme.find("\n## "); at != std::string::npos; at = readme.find("\n## ", at + 1)) {
+      const std::string heading = readme.substr(at, readme.find('\n', at + 1) + 1 - at);
+      if (heading == "\n## Files\n" || heading == "\n## Rooms\n") continue;  // of source files
+      EXPECT_THAT(shown, HasSubstr(heading)) << room;
+    }
+    EXPECT_GT(readme.size(), 1000U) << room;
   }
+}
+
+TEST(Help, MarkdownIsEmbeddedByItsPath) {
+  EXPECT_THAT(embedded_file("README.md"), StartsWith("# myowave"));
+  EXPECT_THAT(embedded_file("solver/README.md"), StartsWith("# solver"));
+  EXPECT_THAT(embedded_file("kernels/README.md"), StartsWith("# kernels"));
+  EXPECT_NE(embedded_file("apps/base/README.md"), embedded_file("kernels/base/README.md"));
+  EXPECT_FALSE(embedded_file("quickstart.toml").empty());
+  EXPECT_TRUE(embedded_file("apps.md").empty());
 }
 
 TEST(Help, ASectionEndsAtTheNextOfItsLevel) {
@@ -47,6 +64,15 @@ TEST(Help, ASectionEndsAtTheNextOfItsLevel) {
   EXPECT_EQ(section_of(text, "Inner"), "### Inner\n```toml\n# a comment\n```\n");
   EXPECT_EQ(section_of(text, "Two"), "## Two\nlast\n");
   EXPECT_EQ(section_of(text, "Three"), "");
+}
+
+TEST(Help, AWholeFileIsShownWithoutItsSectionsOnSourceFiles) {
+  const std::string text =
+      "# Top\n<!-- note -->\n![p](p.png)\n## One\nsee [there](a.md#b)\n## Files\nschema\n### Inner\nmore\n"
+      "## Two\nlast\n### Files\nnone\n";
+  EXPECT_EQ(section_of(text, ""), "# Top\n## One\nsee there\n## Two\nlast\n");
+  EXPECT_EQ(section_of(text, "Two"), "## Two\nlast\n");
+  EXPECT_EQ(section_of(text, "Files"), "## Files\nschema\n### Inner\nmore\n");
 }
 
 TEST(Help, AnUnknownTopicNamesTheNearestAndAll) {
@@ -65,10 +91,14 @@ TEST(Help, TheCommandShowsTopicsAndOptions) {
   EXPECT_THAT(all.output, HasSubstr("tutorial"));
   EXPECT_THAT(all.output, HasSubstr("tradeoff"));
   const auto sweeps = test::run_myowave({"help", "sweeps"});
-  EXPECT_THAT(sweeps.output, StartsWith("## Sweeps"));
-  EXPECT_THAT(sweeps.output, HasSubstr("### Several machines"));
-  EXPECT_THAT(sweeps.output, Not(HasSubstr("## Faults")));
+  EXPECT_THAT(sweeps.output, StartsWith("# sweep"));
+  EXPECT_THAT(sweeps.output, HasSubstr("## Several machines"));
+  EXPECT_THAT(sweeps.output, Not(HasSubstr("# Faults")));
+  EXPECT_THAT(test::run_myowave({"help", "model"}).output, StartsWith("# The model"));
   EXPECT_THAT(test::run_myowave({"help", "run"}).output, HasSubstr("--resume"));
+  // A command that is a topic too shows its options and the topic.
+  EXPECT_THAT(test::run_myowave({"help", "report"}).output,
+              AllOf(HasSubstr("--movie"), HasSubstr("# report")));
   const auto unknown = test::run_myowave({"help", "swepes"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.errors, HasSubstr("did you mean \"sweeps\"?"));

@@ -172,16 +172,16 @@ TEST(schema, describe_names_every_key) {
               ::testing::ThrowsMessage<solver::InputError>(HasSubstr("did you mean \"mechanics\"?")));
 }
 
-TEST(schema, the_reference_in_the_readme_is_what_describe_prints) {
-  std::ifstream file(MYOWAVE_SOURCE_DIR "/apps/README.md");
-  const std::string readme(std::istreambuf_iterator<char>(file), {});
+TEST(schema, the_reference_is_what_describe_prints) {
+  std::ifstream file(MYOWAVE_SOURCE_DIR "/apps/input/REFERENCE.md");
+  const std::string reference(std::istreambuf_iterator<char>(file), {});
   const std::string begin = "<!-- scene reference: begin, from `myowave describe --markdown` -->\n";
   const std::string end = "<!-- scene reference: end -->";
-  const std::size_t from = readme.find(begin), to = readme.find(end);
+  const std::size_t from = reference.find(begin), to = reference.find(end);
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
-  EXPECT_EQ(readme.substr(from + begin.size(), to - from - begin.size()), apps::describe_markdown())
-      << "put the output of `myowave describe --markdown` between the markers of apps/README.md";
+  EXPECT_EQ(reference.substr(from + begin.size(), to - from - begin.size()), apps::describe_markdown())
+      << "put the output of `myowave describe --markdown` between the markers of apps/input/REFERENCE.md";
   const test::Outcome outcome = test::run_myowave({"describe", "--markdown"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.output, apps::describe_markdown());
