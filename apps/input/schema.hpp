@@ -1,6 +1,6 @@
 // The scene schema: each key of a scene file once, with its type, unit, range, meaning and the place
 // in solver::Scene that it is written to. Validation, `myowave describe`, the reference in
-// apps/README.md, the effective configuration and `--set` all come from this table.
+// apps/input/REFERENCE.md, the effective configuration and `--set` all come from this table.
 #pragma once
 
 #include <array>

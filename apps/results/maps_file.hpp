@@ -1,5 +1,5 @@
 // maps.h5: activation, period, APD and conduction velocity of each node; its datasets are a contract
-// (apps/README.md).
+// (apps/results/README.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a run leaves in its folder; file names and columns are a contract (apps/README.md).
+// What a run leaves in its folder; file names and columns are a contract (apps/results/README.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// summary.json: what a run did and found; its keys are a contract (apps/README.md).
+// summary.json: what a run did and found; its keys are a contract (apps/results/README.md).
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -12,7 +12,7 @@ namespace myowave::apps {
 
 struct SweepTable {
   StoredPlan plan;
-  std::vector<std::string> columns;                        // apps/README.md; those of the axes first
+  std::vector<std::string> columns;                        // apps/sweep/README.md; those of the axes first
   std::vector<std::vector<nlohmann::ordered_json>> cells;  // null: none
   std::vector<std::size_t> runs;                           // of each row, its number in the plan
   std::size_t missing = 0;                                 // runs without a record

@@ -46,7 +46,7 @@ std::map<std::string, std::vector<bool>, std::less<>> fronts_of(const Study&);
 // Removes what an earlier one left.
 void remove_tradeoff(const std::filesystem::path& folder);
 
-// tradeoff.csv, tradeoff.json, error_NAME.png and .svg, index.html; documented in apps/README.md.
+// tradeoff.csv, tradeoff.json, error_NAME.png and .svg, index.html; documented in apps/tradeoff/README.md.
 // Errors: std::runtime_error "cannot write FILE: reason".
 void write_tradeoff(const Study&, const std::filesystem::path& folder);
 

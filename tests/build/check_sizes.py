@@ -16,7 +16,7 @@ LIMITS = {"source": 400, "header": 300, "function": 60, "main README": 150, "REA
 # What is too long today, by top folder and file name, with ":function" for one of these. The list only shrinks: an
 # entry that is no longer needed fails the check as well.
 TOO_LONG = set("""
-    README.md apps/README.md bench/README.md cmake/README.md solver/README.md
+    bench/README.md cmake/README.md
     apps/main.cpp:main apps/report.cpp apps/scene_file.cpp apps/schema.cpp apps/schema.cpp:make_schema
     bench/tissue.cpp kernels/diffusion.hpp kernels/tiled_step.hpp
     solver/electromechanics.cpp solver/electromechanics.cpp:Electromechanics<ExecutionSpace,Real>::Electromechanics
