@@ -30,6 +30,7 @@ constexpr std::array topics = {
               "Only what a scene needs"},
     HelpTopic{"report", "one HTML page about runs", "apps/report/README.md", ""},
     HelpTopic{"sweeps", "many runs, their table", "apps/sweep/README.md", ""},
+    HelpTopic{"records", "the files of a sweep", "apps/sweep/RECORDS.md", ""},
     HelpTopic{"slurm", "a sweep on several machines", "apps/sweep/README.md", "Several machines"},
     HelpTopic{"faults", "what is lost when something breaks", "apps/sweep/FAULTS.md", ""},
     HelpTopic{"scenes", "the scenes and sweeps that come with the program", "apps/scenes/README.md", ""},
