@@ -84,9 +84,11 @@ class Links(unittest.TestCase):
         self.rejects("```\n[a](missing.md)\n```\n[b](lost.md)", "room/page.md:4: lost.md")
         self.rejects("- item\n    [a](missing.md)", "room/page.md:2: missing.md")
 
-    def test_texts_of_sources_name_files_that_exist(self):
-        self.write("room/more.cpp", "// See room/README.md and else/README.md, build/x/room/lost.md.\n")
-        self.accepts("")
+    def test_files_that_texts_name(self):
+        self.write("room/more.cpp", "// See room/README.md, else/README.md, build/x/room/lost.md and ${root}/room/lost.md.\n")
+        self.accepts("`room/code.cpp`\n\n    run room/code.cpp --out room/new\n")
+        self.rejects("`room/lost.cpp`", "room/page.md:1: room/lost.cpp: there is no such file")
+        self.rejects("text\n\n    run room/lost.toml\n", "room/page.md:3: room/lost.toml: there is no such file")
         self.write("room/more.cpp", "// See\n// room/lost.md.\n")
         self.rejects("", "room/more.cpp:2: room/lost.md: there is no such file")
 
