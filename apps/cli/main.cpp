@@ -36,7 +36,7 @@ SceneOptions add_scene(CLI::App& command, std::string& scene, std::vector<std::s
       command
           .add_option(
               "--set", overrides,
-              "Value in place of the file's: section.key=value. Strings need no quotes. Repeat for more")
+              "Replace a value of the file: section.key=value. Strings need no quotes. Repeat for more")
           ->type_name("KEY=VALUE")
           ->take_all()
           ->expected(1)
@@ -54,32 +54,32 @@ struct SweepCommand {
   CLI::Option* with_slurm = nullptr;
 
   explicit SweepCommand(CLI::App& app) {
-    command = app.add_subcommand("sweep", "Do many runs of a scene, and go on where they were stopped");
+    command = app.add_subcommand("sweep", "Run a scene for many parameter values; resume where it stopped");
     command->add_option("SWEEP", request.file, "Sweep file (TOML), see apps/sweep/README.md");
     command
         ->add_option("--out", request.out,
-                     "The sweep's folder; without it out/<sweep> in the working directory")
+                     "Folder of the sweep; default: out/<sweep> in the working directory")
         ->type_name("DIR");
     command->add_option("--shard", request.shard, "Only part I of N, from 1")->type_name("I/N");
-    command->add_option("--jobs", request.jobs, "Runs at once; without it one a core")->type_name("J");
+    command->add_option("--jobs", request.jobs, "Parallel runs; default: one per core")->type_name("J");
     command->add_flag("--dry-run", request.dry_run,
-                      "Say what would be done and how long it takes; write nothing");
-    command->add_flag("--retry-failed", request.retry_failed, "Do the runs again that failed");
+                      "Print what would be done and how long it takes; write nothing");
+    command->add_flag("--retry-failed", request.retry_failed, "Repeat failed runs");
     command->add_flag("--redo-other-revisions", request.redo_other_revisions,
-                      "Do the runs again that another revision of myowave did");
+                      "Repeat runs of another revision of myowave");
     command->add_flag("--quiet", request.quiet, "No progress on the terminal");
     with_slurm = command->add_flag("--slurm", wants_slurm,
                                    "Write the script of a Slurm job array into the folder; run nothing");
     const auto for_slurm = [&](const char* name, auto& value, const char* words) {
       command->add_option(name, value, words)->needs(with_slurm)->capture_default_str();
     };
-    for_slurm("--tasks", slurm.tasks, "Tasks of the array, a shard each");
+    for_slurm("--tasks", slurm.tasks, "Tasks of the array, one shard each");
     for_slurm("--time", slurm.time, "Time limit of a task");
     for_slurm("--cpus", slurm.cpus, "Cores of a task");
     for_slurm("--gpus", slurm.gpus, "GPUs of a task");
-    status = command->add_subcommand("status", "Say how far a sweep is");
+    status = command->add_subcommand("status", "Print the progress of a sweep");
     status->add_option("DIR", folder, "Folder of a sweep")->required();
-    table = command->add_subcommand("table", "Print a row a run, from the records of all shards");
+    table = command->add_subcommand("table", "Print one row per run, from the records of all shards");
     table->add_option("DIR", folder, "Folder of a sweep")->required();
     auto* as_csv = table->add_flag("--csv", csv, "As CSV");
     table->add_flag("--json", json, "As JSON")->excludes(as_csv);
@@ -95,7 +95,7 @@ struct SweepCommand {
     if (request.file.empty())
       throw solver::InputError(
           "myowave: SWEEP is required: a sweep file, or status or table with a sweep's folder\nRun `myowave "
-          "sweep --help` for what can be asked.");
+          "sweep --help` for its options.");
     if (wants_slurm) request.slurm = slurm;
     apps::sweep(request);
   }
@@ -107,16 +107,16 @@ struct TradeoffCommand {
   CLI::App* command = nullptr;
 
   explicit TradeoffCommand(CLI::App& app) {
-    command = app.add_subcommand("tradeoff", "Run a scene over its dials of accuracy: cost against error");
+    command = app.add_subcommand("tradeoff", "Measure time and error of a scene's accuracy settings");
     const auto [scene, set] = add_scene(*command, request.scene, request.overrides);
     scene->required(false);
     command->add_option("--out", request.out, "Result folder")->type_name("DIR");
     command->add_flag("--force", request.force, "Write into a folder that already holds results");
     command
         ->add_option("--axes", request.axes,
-                     "Dials, as \"time.dt=0.01,0.02;accuracy.scheme=euler,split\" or by name; without it all")
+                     "Dials, as \"time.dt=0.01,0.02;accuracy.scheme=euler,split\" or by name; default: all")
         ->type_name("LIST");
-    command->add_flag("--product", request.product, "All combinations of the dials in place of each alone");
+    command->add_flag("--product", request.product, "All combinations of the dials instead of each alone");
     command
         ->add_option(
             "--target", request.targets,
@@ -125,16 +125,15 @@ struct TradeoffCommand {
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
-    command->add_option("--budget", request.budget, "No setting is begun after so much measured time")
+    command->add_option("--budget", request.budget, "Start no setting after this measured time")
         ->type_name("SECONDS");
     command->add_option("--repetitions", request.repetitions, "Runs of each setting")->capture_default_str();
     command->add_option("--levels", request.levels, "Grids of the reference, nodes a grid.dx")
         ->type_name("A,B,C")
         ->capture_default_str();
-    command->add_flag(
-        "--refine-elements", request.refine_elements,
-        "The reference's elements become smaller with its grids; without it they are the scene's");
-    command->add_option("--starts", request.starts, "Starts that a chaotic scene's means are taken over")
+    command->add_flag("--refine-elements", request.refine_elements,
+                      "Shrink the elements of the reference with its grids; default: those of the scene");
+    command->add_option("--starts", request.starts, "Starts per setting of a chaotic scene")
         ->capture_default_str();
     command->add_flag("--list", list, "Only print the dials and the presets");
   }
@@ -171,7 +170,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed,\n"
-      "75 stopped on request, to be gone on with.\n"
+      "75 stopped on request; resume with `myowave run --resume DIR`.\n"
       "Example: myowave run apps/scenes/quickstart.toml --set excitation.mu1=0.1 --until 50");
 
   apps::RunRequest request;
@@ -179,21 +178,21 @@ int main(int argc, char** argv) {
   const auto [scene, set] = add_scene(*run, request.scene, request.overrides);
   scene->required(false);
   CLI::Option* const out =
-      run->add_option("--out", request.out, "Result folder; without it out/<scene> in the working directory")
+      run->add_option("--out", request.out, "Result folder; default: out/<scene> in the working directory")
           ->type_name("DIR");
   CLI::Option* const until =
-      run->add_option("--until", request.until, "End at this time (t.u.) in place of time.t_end")
+      run->add_option("--until", request.until, "End at this time (t.u.) instead of time.t_end")
           ->type_name("T");
   CLI::Option* const force =
       run->add_flag("--force", request.force, "Write into a folder that already holds results");
   CLI::Option* const resume =
-      run->add_option("--resume", request.resume, "Go on with the run that was stopped in this result folder")
+      run->add_option("--resume", request.resume, "Resume the run that was stopped in this result folder")
           ->type_name("DIR");
   for (CLI::Option* own : {scene, set, out, until, force}) resume->excludes(own);
   run->add_flag("--quiet", request.quiet, "No progress and no result on the terminal");
 
   CLI::App* check =
-      app.add_subcommand("check", "Say what a scene models, its memory and its time; leave nothing behind");
+      app.add_subcommand("check", "Print what a scene models, its memory and its time; write nothing");
   add_scene(*check, request.scene, request.overrides);
 
   std::string section;
@@ -207,28 +206,26 @@ int main(int argc, char** argv) {
   CLI::App* stability = app.add_subcommand(
       "stability", "Map where a step is right, wrong or blows up; write tables and pictures into a folder");
   stability->add_option("--map", maps.map, "Only this map")->type_name("NAME");
-  stability->add_option("--out", maps.out, "Result folder; without it out/stability in the working directory")
+  stability->add_option("--out", maps.out, "Result folder; default: out/stability in the working directory")
       ->type_name("DIR");
   stability->add_flag("--force", maps.force, "Write into a folder that already holds results");
   stability->footer(apps::map_names());
 
   apps::ReproduceRequest figures;
   CLI::App* reproduce = app.add_subcommand(
-      "reproduce",
-      "Make the paper's figures again: runs, data, pictures, and our numbers beside the paper's");
-  reproduce->add_option("FIGURE", figures.figures,
-                        "Numbers of figures; without one, or with `all`, all of them");
+      "reproduce", "Make the figures of the paper: runs, data, pictures, our numbers beside the paper's");
+  reproduce->add_option("FIGURE", figures.figures, "Numbers of figures; default, or `all`: all of them");
   reproduce->add_flag("--quick", figures.quick, "The same from shorter and fewer runs");
   reproduce
-      ->add_option("--out", figures.out, "Result folder; without it out/reproduce in the working directory")
+      ->add_option("--out", figures.out, "Result folder; default: out/reproduce in the working directory")
       ->type_name("DIR");
-  reproduce->add_option("--jobs", figures.jobs, "Runs at once; without it one a core")->type_name("J");
+  reproduce->add_option("--jobs", figures.jobs, "Parallel runs; default: one per core")->type_name("J");
   reproduce->footer(apps::figure_names());
 
   apps::ReportRequest page;
-  CLI::App* report = app.add_subcommand("report", "Make one page, report.html, that shows runs");
+  CLI::App* report = app.add_subcommand("report", "Make one HTML page about runs");
   report->add_option("DIR", page.folders, "Folders of runs, of sweeps, or of a reproduction")->required();
-  report->add_option("--out", page.out, "The page; without it report.html in the first folder")
+  report->add_option("--out", page.out, "The page; default: report.html in the first folder")
       ->type_name("FILE");
   report->add_flag("--movie", page.movie, "Also movie.mp4 of each run, by ffmpeg where it is installed");
 
@@ -251,8 +248,7 @@ int main(int argc, char** argv) {
   // CLI11 would only say that a subcommand is missing.
   if (argc > 1 && argv[1][0] != '-' && !is_command(argv[1])) {
     const std::string meant = apps::did_you_mean(argv[1], {names.begin(), names.end()});
-    fmt::print(stderr,
-               "myowave: there is no subcommand \"{}\"{}\nRun `myowave --help` for what can be asked.\n",
+    fmt::print(stderr, "myowave: there is no subcommand \"{}\"{}\nRun `myowave --help` for the list.\n",
                argv[1], apps::hint(meant));
     return 2;
   }
@@ -263,7 +259,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "myowave: {}\n", error.what());
     const CLI::App* near = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
-    fmt::print(stderr, "Run `{} --help` for what can be asked.\n",
+    fmt::print(stderr, "Run `{} --help` for its options.\n",
                near == &app ? "myowave" : "myowave " + near->get_name());
     return 2;
   }
