@@ -274,7 +274,10 @@ int main(int argc, char** argv) {
     if (sweep.command->parsed()) sweep.run();
     if (tradeoff.command->parsed()) tradeoff.run();
     if (info->parsed()) apps::info();
-    if (help->parsed() && topic.empty()) fmt::print("{}\n{}", app.help(), apps::topic_names());
+    // app.help() would print the help of the subcommand `help`.
+    if (help->parsed() && topic.empty())
+      fmt::print("{}\n{}", app.get_formatter()->make_help(&app, "myowave", CLI::AppFormatMode::Normal),
+                 apps::topic_names());
     // Some commands are topics too.
     if (help->parsed() && is_command(topic)) fmt::print("{}", app.get_subcommand(topic)->help("myowave"));
     if (help->parsed() && !topic.empty() && (apps::is_topic(topic) || !is_command(topic)))
