@@ -1,32 +1,37 @@
 #!/usr/bin/env python3
-"""Prints a benchmark run as Markdown tables: the yardstick, the product, their ratio.
+"""Prints a benchmark run as one Markdown table, each row beside its yardstick.
 
-    bench/table.py FILE.json
+    bench/table.py RUN.json                       print the table
+    bench/table.py RUN.json --reduce SMALL.json   keep only what the table needs (SMALL may be RUN itself)
+    bench/table.py RUN.json --write README.md     put the table between the markers of README.md
+    bench/table.py RUN.json --check README.md     exit with 1 if the table there is another one
 
-FILE comes from ./dev bench --repetitions 5 --json FILE. Medians over the repetitions.
+RUN.json comes from ./dev bench --repetitions 5 --json RUN.json. Numbers are medians over the repetitions; the
+spread is the largest less the smallest value, in percent of the median. "Times as fast" compares with the row's
+yardstick: the hand-written loop, Newton with a new factor in every iteration, or the same run with nothing left out.
 """
 
+import argparse
 import json
+import pathlib
+import re
 import statistics
 import sys
 
+BEGIN, END = "<!-- table: begin -->", "<!-- table: end -->"
 
-def medians(results, counter):
-    """Median of a counter over the repetitions, by row.
+# Of the context and of each repetition, what the table shows and compare.py compares.
+CONTEXT = ("date", "myowave", "git_hash", "git_dirty", "compiler", "compiler_flags", "kokkos", "backend", "threads",
+           "cpu", "triad_bytes_per_s", "float64_flops_per_s", "float32_flops_per_s")
+RESULT = ("run_name", "run_type", "repetitions", "repetition_index", "iterations", "real_time", "time_unit",
+          "cell_steps_per_s", "bytes_per_s", "percent_of_triad", "error_occurred", "error_message")
 
-    >>> row = {"run_name": "plain/identity/float64/121", "run_type": "iteration"}
-    >>> medians([dict(row, rate=1.0), dict(row, rate=4.0), dict(row, rate=2.0)], "rate")
-    {'plain/identity/float64/121': 2.0}
-    """
-    values = {}
-    for result in results:
-        if result["run_type"] == "iteration" and counter in result and not result.get("error_occurred"):
-            values.setdefault(result["run_name"], []).append(result[counter])
-    return {name: statistics.median(all_) for name, all_ in values.items()}
+# Rows of the table in their order, by the first word of their names; a yardstick has no row of its own.
+KINDS = ("stream", "step", "tiled", "newton", "coupled", "ensemble", "quiescent", "pruning", "startup", "checkpoint")
 
 
 def row_name(name):
-    """Without what Google Benchmark adds.
+    """The name without what Google Benchmark adds.
 
     >>> row_name("step/identity/float64/121/members:8/real_time")
     'step/identity/float64/121/members:8'
@@ -34,92 +39,196 @@ def row_name(name):
     return name.removesuffix("/real_time")
 
 
-def split(name):
-    """Kind and the rest of a step's row; None for another row.
+def yardstick(name):
+    """The row that a row is compared with, or None.
 
-    >>> split("step/identity/float64/121")
-    ('step', 'identity/float64/121')
-    >>> split("newton/plain/25") is None
+    Every metric is compared with the hand-written loop that loads its weights.
+
+    >>> yardstick("tiled/identity_split/float32/251")
+    'plain/identity/float32/251'
+    >>> yardstick("step/expanded/float64/121/members:8")
+    'plain/conservative_loaded/float64/121'
+    >>> yardstick("newton/solve/25"), yardstick("pruning/feedback/251/pruned")
+    ('newton/plain/25', 'pruning/feedback/251/full')
+    >>> yardstick("quiescent/plane/float64/tolerance:1e-12")
+    'quiescent/plane/float64/whole_sheet'
+    >>> yardstick("coupled/float64/251/interval:80") is None
     True
     """
-    kind, _, rest = name.partition("/")
-    return (kind, rest) if kind in ("step", "tiled", "plain", "plain_serial") else None
+    parts = name.split("/")
+    if parts[0] in ("step", "tiled"):
+        form = "identity" if parts[1].startswith("identity") else "conservative_loaded"
+        return "/".join(["plain", form, *parts[2:4]])
+    if parts[:2] == ["newton", "solve"]:
+        return "/".join(["newton", "plain", *parts[2:]])
+    if parts[0] == "pruning" and parts[-1] == "pruned":
+        return "/".join([*parts[:-1], "full"])
+    if parts[0] == "quiescent" and parts[-1] != "whole_sheet":
+        return "/".join([*parts[:-1], "whole_sheet"])
+    return None
 
 
-def yardstick(rest):
-    """Row of the yardstick for a product's row: every metric form is held against the loaded one.
+def repetitions(results):
+    """Results of each row's repetitions without error, by row, with the time of an iteration in ms.
 
-    >>> yardstick("expanded/float64/251")
-    'conservative_loaded/float64/251'
-    >>> yardstick("identity/float64/121/members:8")
-    'identity/float64/121'
+    >>> repetitions([{"run_name": "a/real_time", "run_type": "iteration", "real_time": 2, "time_unit": "us"},
+    ...              {"run_name": "a/real_time", "run_type": "aggregate", "real_time": 9, "time_unit": "us"},
+    ...              {"run_name": "b", "run_type": "iteration", "error_occurred": True}])["a"][0]["ms"]
+    0.002
     """
-    form, precision, n = rest.split("/")[:3]
-    return "/".join(["identity" if form == "identity" else "conservative_loaded", precision, n])
+    ms = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
+    rows = {}
+    for result in results:
+        if result["run_type"] == "iteration" and not result.get("error_occurred"):
+            row = rows.setdefault(row_name(result["run_name"]), [])
+            row.append(dict(result, ms=result["real_time"] * ms[result["time_unit"]]))
+    return rows
 
 
-def step_table(rates, triad):
-    lines = ["| row | plain_serial | plain | step | step / plain | tiled | tiled / plain | step, % of triad |",
-             "|---|---|---|---|---|---|---|---|"]
-    kinds = {}
-    for name, rate in rates.items():
-        if split(name):
-            kind, rest = split(name)
-            kinds.setdefault(kind, {})[rest] = rate
-    plain = kinds.get("plain", {})
-    rests = dict.fromkeys(rest for name in rates if split(name) for rest in [split(name)[1]])
-    mega = lambda rate: f"{rate / 1e6:.0f}" if rate else ""
-    for rest in rests:
-        base = plain.get(yardstick(rest))
-        cells = [rest, mega(kinds.get("plain_serial", {}).get(rest)), mega(plain.get(rest))]
-        for kind in ("step", "tiled"):
-            rate = kinds.get(kind, {}).get(rest)
-            cells += [mega(rate), f"{rate / base:.2f}" if rate and base else ""]
-        percent = triad.get("step/" + rest)
-        cells.append(f"{percent:.0f}" if percent else "")
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+def measured(row):
+    """Counter that a row is judged by, the factor to the unit shown, and that unit.
+
+    >>> measured([{"ms": 1.0, "cell_steps_per_s": 2e6, "bytes_per_s": 5.0}])
+    ('cell_steps_per_s', 1e-06, 'Mcell-steps/s')
+    >>> measured([{"ms": 1.0}])
+    ('ms', 1.0, 'ms')
+    """
+    if "cell_steps_per_s" in row[0]:
+        return "cell_steps_per_s", 1e-6, "Mcell-steps/s"
+    return "ms", 1.0, "ms"
 
 
-def newton_table(times):
-    lines = ["| elements a side | plain, ms | solve, ms | solve / plain |", "|---|---|---|---|"]
-    for name, plain in times.items():
-        if not name.startswith("newton/plain/"):
-            continue
-        size = name.rsplit("/", 1)[1]
-        ours = times.get("newton/solve/" + size)
-        cells = [size, f"{plain:.3g}", f"{ours:.3g}" if ours else "", f"{ours / plain:.2f}" if ours else ""]
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+def median(row, counter):
+    return statistics.median(result[counter] for result in row)
 
 
-def coupled_table(rates, mechanics):
-    lines = ["| row | Mcell-steps/s | mechanics, % of the time |", "|---|---|---|"]
-    for name, rate in rates.items():
-        if name.startswith("coupled/"):
-            lines.append(f"| {name} | {rate / 1e6:.0f} | {mechanics[name]:.0f} |")
-    return lines
+def digits(value):
+    """Three digits, or all before the point.
+
+    >>> digits(2168.4), digits(11.04), digits(0.13)
+    ('2168', '11.0', '0.130')
+    """
+    return f"{value:.0f}" if value >= 100 else f"{value:#.3g}"
+
+
+def line(name, row, base):
+    """A row of the table; base: the repetitions of its yardstick, or None.
+
+    >>> fast = [{"ms": 1.0, "cell_steps_per_s": rate, "percent_of_triad": 50} for rate in (3e8, 2e8, 4e8)]
+    >>> line("step/identity/float64/121", fast, [{"ms": 1.0, "cell_steps_per_s": 2e8}])
+    '| `step/identity/float64/121` | 300 Mcell-steps/s | 67 | 200 | 1.50 | 50 |'
+    >>> line("newton/solve/25", [{"ms": 1.0}], [{"ms": 11.0}])
+    '| `newton/solve/25` | 1.00 ms | 0 | 11.0 | 11.0 |  |'
+    """
+    counter, factor, unit = measured(row)
+    value = median(row, counter)
+    values = [result[counter] for result in row]
+    cells = [f"`{name}`", f"{digits(factor * value)} {unit}", f"{100 * (max(values) - min(values)) / value:.0f}"]
+    if base:
+        other = median(base, counter)
+        gain = other / value if counter == "ms" else value / other
+        cells += [digits(factor * other), digits(gain)]
+    else:
+        cells += ["", ""]
+    cells.append(f"{median(row, 'percent_of_triad'):.0f}" if "percent_of_triad" in row[0] else "")
+    return "| " + " | ".join(cells) + " |"
+
+
+def wanted(name, rows):
+    """Whether a row stands in the table: of a known kind, and no other row's yardstick."""
+    return name.partition("/")[0] in KINDS and name not in {yardstick(other) for other in rows}
+
+
+def table(run):
+    """The lines of the table and the one above it that says where it was made."""
+    context, rows = run["context"], repetitions(run["benchmarks"])
+    counts = sorted({len(row) for row in rows.values()})
+    changed = " with changes" if context["git_dirty"] == "true" else ""
+    yield (f"{context['cpu']}, {context['threads']} threads, {context['compiler']}, Kokkos {context['kokkos']} "
+           f"({context['backend']}), revision {context['git_hash']}{changed}, {context['date'][:10]}; the triad at the "
+           f"start: {float(context['triad_bytes_per_s']) / 1e9:.1f} GB/s; medians of "
+           f"{' or '.join(map(str, counts))} repetitions.")
+    yield ""
+    yield "| row | median | spread, % | yardstick | times as fast | % of triad |"
+    yield "|---|---|---|---|---|---|"
+    for name in sorted((name for name in rows if wanted(name, rows)), key=order):
+        yield line(name, rows[name], rows.get(yardstick(name)))
+
+
+def order(name):
+    """Sorts by kind, then by name with numbers as numbers.
+
+    >>> sorted(["tiled/a/121", "step/a/4096", "step/a/251"], key=order)
+    ['step/a/251', 'step/a/4096', 'tiled/a/121']
+    """
+    parts = re.split(r"(\d+)", name)
+    return KINDS.index(name.partition("/")[0]), [int(part) if part.isdigit() else part for part in parts]
+
+
+def reduced(run):
+    """The run without the context and counters that neither the table nor compare.py reads.
+
+    >>> small = reduced({"context": {"cpu": "x", "load_avg": [1]},
+    ...                  "benchmarks": [{"run_name": "a", "run_type": "iteration", "cpu_time": 1},
+    ...                                 {"run_name": "a", "run_type": "aggregate"}]})
+    >>> small["context"], small["benchmarks"]
+    ({'cpu': 'x'}, [{'run_name': 'a', 'run_type': 'iteration'}])
+    """
+    return {"context": {key: run["context"][key] for key in CONTEXT if key in run["context"]},
+            "benchmarks": [{key: result[key] for key in RESULT if key in result}
+                           for result in run["benchmarks"] if result["run_type"] == "iteration"]}
+
+
+def as_text(run):
+    """JSON with one line a repetition, so that a new run is a readable change."""
+    context = json.dumps(run["context"], indent=2)
+    lines = ",\n".join(json.dumps(result) for result in run["benchmarks"])
+    return f'{{"context": {context},\n"benchmarks": [\n{lines}\n]}}\n'
+
+
+def replaced(text, lines):
+    """A text with these lines between its markers.
+
+    >>> print(replaced("a\\n<!-- table: begin -->\\nold\\n<!-- table: end -->\\nb", ["new"]))
+    a
+    <!-- table: begin -->
+    new
+    <!-- table: end -->
+    b
+    """
+    head, found, rest = text.partition(BEGIN + "\n")
+    _, ended, tail = rest.partition(END)
+    if not found or not ended:
+        sys.exit(f"no lines {BEGIN} and {END}")
+    return head + found + "\n".join(lines) + "\n" + ended + tail
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
-        sys.exit(__doc__)
-    with open(sys.argv[1]) as file:
-        run = json.load(file)
-    context, results = run["context"], run["benchmarks"]
-    scale = {"ns": 1e-6, "us": 1e-3, "ms": 1, "s": 1e3}
-    for result in results:
-        result["run_name"] = row_name(result["run_name"])
-        if result["run_type"] == "iteration" and "real_time" in result:
-            result["ms"] = result["real_time"] * scale[result["time_unit"]]
-    rates = medians(results, "cell_steps_per_s")
-    print(f"{context['cpu']}, {context['threads']} threads, {context['compiler']}, Kokkos {context['kokkos']}, "
-          f"revision {context['git_hash']}{' with changes' if context['git_dirty'] == 'true' else ''}; "
-          f"triad {float(context['triad_bytes_per_s']) / 1e9:.1f} GB/s. Mcell-steps/s, medians.\n")
-    print("\n".join(step_table(rates, medians(results, "percent_of_triad"))), "\n")
-    print("\n".join(newton_table(medians(results, "ms"))), "\n")
-    print("\n".join(coupled_table(rates, medians(results, "percent_mechanics"))))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("run", type=pathlib.Path)
+    action = parser.add_mutually_exclusive_group()
+    action.add_argument("--reduce", type=pathlib.Path, metavar="FILE")
+    action.add_argument("--write", type=pathlib.Path, metavar="FILE")
+    action.add_argument("--check", type=pathlib.Path, metavar="FILE")
+    arguments = parser.parse_args()
+    run = json.loads(arguments.run.read_text())
+    if arguments.reduce:
+        arguments.reduce.write_text(as_text(reduced(run)))
+        return 0
+    lines = list(table(run))
+    readme = arguments.write or arguments.check
+    if not readme:
+        print("\n".join(lines))
+        return 0
+    old = readme.read_text()
+    new = replaced(old, lines)
+    if arguments.write:
+        readme.write_text(new)
+    elif old != new:
+        print(f"{readme} does not show {arguments.run}: bench/table.py {arguments.run} --write {readme}")
+        return 1
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,6 +1,5 @@
 // Bytes and operations that one item (a node for a step, an entry, an element) costs if every array
-// is read and written once and neighbours come from the cache. The table in bench/README.md shows the
-// same numbers.
+// is read and written once and neighbours come from the cache. bench/traffic.md shows the same numbers.
 #pragma once
 
 namespace myowave::bench {
