@@ -27,7 +27,7 @@ RESULT = ("run_name", "run_type", "repetitions", "repetition_index", "iterations
           "cell_steps_per_s", "bytes_per_s", "percent_of_triad", "error_occurred", "error_message")
 
 # Rows of the table in their order, by the first word of their names; a yardstick has no row of its own.
-KINDS = ("stream", "step", "tiled", "newton", "coupled", "ensemble", "quiescent", "pruning", "startup", "checkpoint")
+KINDS = ("stream", "step", "tiled", "newton", "coupled", "ensemble", "pruning", "startup", "checkpoint")
 
 
 def row_name(name):
@@ -50,8 +50,6 @@ def yardstick(name):
     'plain/conservative_loaded/float64/121'
     >>> yardstick("newton/solve/25"), yardstick("pruning/feedback/251/pruned")
     ('newton/plain/25', 'pruning/feedback/251/full')
-    >>> yardstick("quiescent/plane/float64/tolerance:1e-12")
-    'quiescent/plane/float64/whole_sheet'
     >>> yardstick("coupled/float64/251/interval:80") is None
     True
     """
@@ -63,8 +61,6 @@ def yardstick(name):
         return "/".join(["newton", "plain", *parts[2:]])
     if parts[0] == "pruning" and parts[-1] == "pruned":
         return "/".join([*parts[:-1], "full"])
-    if parts[0] == "quiescent" and parts[-1] != "whole_sheet":
-        return "/".join([*parts[:-1], "whole_sheet"])
     return None
 
 

@@ -1,5 +1,5 @@
 // Bytes and operations that one item (a node for a step, an entry, an element) costs if every array
-// is read and written once and neighbours come from the cache. bench/traffic.md shows the same numbers.
+// is read and written once and neighbours come from the cache. bench/TRAFFIC.md shows the same numbers.
 #pragma once
 
 namespace myowave::bench {

@@ -1,4 +1,4 @@
-# The target `docs`: pages of the libraries' headers and of all Markdown files, in docs/html of the build folder.
+# The target `docs`: pages of the libraries' headers and the folders' READMEs, in docs/html of the build folder.
 # Any warning of doxygen fails it.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
@@ -29,8 +29,7 @@ set(DOXYGEN_PREDEFINED KOKKOS_FUNCTION= KOKKOS_INLINE_FUNCTION=inline KOKKOS_FOR
 
 get_target_property(kernel_headers myowave_kernels HEADER_SET)
 get_target_property(solver_headers myowave_solver HEADER_SET)
-file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/*.md)
-file(GLOB_RECURSE folder_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} apps/*.md bench/*.md cmake/*.md kernels/*.md
-  solver/*.md tests/*.md)
-doxygen_add_docs(docs ${pages} ${folder_pages} ${kernel_headers} ${solver_headers}
+file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} apps/*.md bench/*.md cmake/*.md kernels/*.md solver/*.md
+     tests/*.md)
+doxygen_add_docs(docs README.md ${pages} ${kernel_headers} ${solver_headers}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Writing ${PROJECT_BINARY_DIR}/docs/html")

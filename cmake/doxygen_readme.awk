@@ -1,14 +1,14 @@
-# Gives doxygen the links of the Markdown files: headings get labels of file and title, links to headings go to these.
+# Gives doxygen the links of the READMEs: headings get labels of folder and title, links to headings go to these.
 # Of a link to a file that is no page the text is left. -v root= the project's folder.
 
-function label(page, title) {
-  sub(/README\.md$/, "", page)
-  sub(/\.md$/, "-", page)
-  gsub(/\//, "-", page)
+function label(folder, title) {
+  sub(/README\.md$/, "", folder)
+  sub(/\.md$/, "-", folder)
+  gsub(/\//, "-", folder)
   title = tolower(title)
   gsub(/[^a-z0-9 _-]/, "", title)
   gsub(/ /, "-", title)
-  return "readme-" page title
+  return "readme-" folder title
 }
 
 # A path beside the page, from the project's folder.
