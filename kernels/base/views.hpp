@@ -1,5 +1,5 @@
-// The View types of the project and their layout: (member, row, column), last index fastest, on
-// every backend, so that a neighbouring column is the neighbouring address.
+// The View types of the project. Layout (member, row, column), last index fastest, on every backend:
+// neighbouring columns have neighbouring addresses.
 #pragma once
 
 #include <Kokkos_Core.hpp>

@@ -31,7 +31,7 @@ struct ActiveTension {
   KOKKOS_FORCEINLINE_FUNCTION Real relaxation(Real V) const { return V < threshold ? eps_below : eps_above; }
 };
 
-// Where nothing asks for Ta.
+// For scenes that do not need Ta.
 struct NoTension {
   static constexpr bool integrated = false;
 };

@@ -1,20 +1,20 @@
 // Launchers over the elements: energy, linearization, and their gathers to nodes and matrix slots.
 //
-// Elements write arrays of their own; every node then sums its contributions in a fixed order. No
-// atomics: the bits do not depend on the number of threads.
+// Every element writes its own entries; every node then sums its contributions in a fixed order. There are
+// no atomics, so results are bitwise identical for any number of threads.
 //
 //   view            shape           unit
 //   nodes           (nodes, 2)      length              positions
 //   Ta              (elements, 4)   kPa                 tension at the Gauss points
 //   energy          (2, elements)   kPa x area, -       Pi and smallest corner J of the element
 //   element         (44, places)    kPa x length, kPa   residual, dof 2 c + i; tangent, its lower half
-//   residual        (nodes, 2)      kPa x length        dPi/dx, also at held nodes: what holds them
+//   residual        (nodes, 2)      kPa x length        dPi/dx; at fixed nodes the reaction force
 //   nodal_tangent   (19, nodes)     kPa                 K of the node's two rows, see NodalTangent
 //   slot_source     (slots)         -                   entry nodes + node in nodal_tangent
 //   values          (slots)         kPa                 lower triangle of K in compressed rows
 //
-// Element (I, J) stands at place node(I, J) + columns + 2: the elements around node n are then at
-// n, n + 1, n + columns + 1 and n + columns + 2, and the places that are no element hold zeros.
+// Element (I, J) is at place node(I, J) + columns + 2. The elements around node n are then at n, n + 1,
+// n + columns + 1 and n + columns + 2. Places without an element are zero.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -37,8 +37,8 @@ using Indices = Kokkos::View<int*, MemorySpace>;
 inline constexpr int linearization_entries = element_dofs + tangent_entries;
 constexpr int places(const ElementGrid& grid) { return grid.nodes() + grid.columns + 2; }
 
-// K of a node with the four nodes before it, at 4 k + 2 i + j of its component i and component j of
-// neighbour k; then with itself: 11, 21, 22.
+// K of a node with the four nodes before it: entry 4 k + 2 i + j for its component i and component j of
+// neighbour k. Then K of the node with itself: 11, 21, 22.
 struct NodalTangent {
   static constexpr int neighbours = 4;
   static constexpr int self = 4 * neighbours;
@@ -57,7 +57,7 @@ Kokkos::RangePolicy<Space> range(const Space& space, int n) {
 
 }  // namespace detail
 
-// The sheet stretched uniformly about its middle node, which stays: undeformed at stretch = 1.
+// Stretches the sheet uniformly about its middle node, which does not move; stretch = 1: undeformed.
 template <class Space>
 void place_uniform(const Space& space, const ElementGrid& grid, double stretch,
                    const Nodes<typename Space::memory_space>& nodes) {
@@ -122,8 +122,8 @@ bool same_tension(const Space& space, const GaussTension<typename Space::memory_
   return different == 0;
 }
 
-// Writes the energy of every element and its smallest corner J; where that is not positive the energy
-// means nothing.
+// Writes the energy of every element and its smallest corner J. The energy is meaningless if that J is not
+// positive.
 template <class MemorySpace>
 struct ElementEnergies {
   Membrane membrane;
@@ -179,7 +179,7 @@ void linearize_elements(const Space& space, const Membrane& membrane, const Elem
                       LinearizeElements<typename Space::memory_space>{membrane, grid, nodes, Ta, element});
 }
 
-// Sums residual and tangent of the up to four elements at each node, in the order of the elements.
+// Sums residual and tangent of the elements around each node (at most four), in the order of the elements.
 template <class MemorySpace>
 struct GatherNodes {
   ElementGrid grid;
@@ -187,7 +187,7 @@ struct GatherNodes {
   Nodes<MemorySpace> residual;
   Rows<MemorySpace> nodal_tangent;
 
-  // Of the element whose corner c is node n.
+  // The element with node n as its corner c.
   KOKKOS_FORCEINLINE_FUNCTION int place(int n, int c) const {
     return n + (c < 2 ? grid.columns + 1 : 0) + (c % 2 == 0 ? 1 : 0);
   }

@@ -1,12 +1,12 @@
 // The load on the edge of the sheet (Nash & Panfilov 2004, Eq 19): tension p along the outward
-// normal, by deformed length (follower) or by undeformed length and direction (dead).
+// normal, per deformed length (follower) or per undeformed length and direction (dead).
 //
-// The boundary is closed, so that both equal a term in the bulk, which is what the elements use:
+// The boundary is closed, so both equal a bulk term, which the elements use:
 //
 //   follower: potential -p J      (the area inside the boundary is the integral of J)
 //   dead:     potential -p tr F   (integral of N . x over the boundary = integral of div x)
 //
-// At most one of them is not zero; both are zero where the boundary is held.
+// At most one of them is not zero. Both are zero if the boundary is fixed.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -29,7 +29,7 @@ KOKKOS_FORCEINLINE_FUNCTION void add_follower_load(double p, double A, EnergyDer
   w.w_AA += 0.25 * p * inv_A * inv_J;
 }
 
-// The same load as force on either end of the edge a -> b, the sheet on its left.
+// The same load as the force on each end of the edge a -> b, with the sheet on its left.
 struct EdgeForce {
   double f1, f2;
 };

@@ -4,8 +4,8 @@
 //   R_(n,i) = sum_g w_g P_iM Psi_n,M                  P = dw/dF                 (dead load: - p I)
 //   K_(n,i)(m,j) = sum_g w_g Psi_n,M A_iMjN Psi_m,N   A = dP/dF
 //
-// One potential: R is its gradient and K its symmetric second derivative, for either load.
-// All of it is inlined and without a loop, so that a loop over elements becomes one over vector lanes.
+// Pi is a potential for both loads: R is its gradient, K its symmetric second derivative. All functions are
+// inlined and have no loops, so that a loop over elements vectorises.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -38,7 +38,7 @@ KOKKOS_FORCEINLINE_FUNCTION EnergyDerivatives membrane_energy(const Membrane& me
   return w;
 }
 
-// w at Gauss point q, kPa, with the load in it.
+// w at Gauss point q including the load, kPa.
 KOKKOS_FORCEINLINE_FUNCTION double gauss_energy(const Membrane& membrane, const ElementNodes& element,
                                                 double Ta, int q, double h) {
   const Mat2 F = gauss_deformation_gradient(element, q, h);
@@ -59,7 +59,7 @@ struct ElementLinearization {
   double K[tangent_entries];
 };
 
-// Gauss point q: adds to the rows of corner n, and to their columns of corner m <= n.
+// Gauss point q: adds to the rows of corner n and their columns of the corners m <= n.
 template <int q, int n, int m>
 KOKKOS_FORCEINLINE_FUNCTION void add_entries(const Mat2& row_1, const Mat2& row_2,
                                              ElementLinearization& out) {
@@ -86,7 +86,7 @@ KOKKOS_FORCEINLINE_FUNCTION void add_rows(const Mat2& P, const SpatialTangent& A
   if constexpr (n > 2) add_entries<q, n, 3>(row_1, row_2, out);
 }
 
-// Gauss point q. With the gradients of the unit square h^2 cancels in K, and one h is left in R.
+// Gauss point q. With the gradients of the unit square h^2 cancels in K, and R keeps one factor h.
 template <int q>
 KOKKOS_FORCEINLINE_FUNCTION void add_gauss_point(const Membrane& membrane, const ElementNodes& element,
                                                  double Ta, double h, ElementLinearization& out) {

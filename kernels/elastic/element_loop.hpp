@@ -1,5 +1,5 @@
-// A loop over the columns of all rows of a mesh: a thread an element (or node) on a device, vector
-// lanes along a row on a host.
+// A loop over all elements or nodes of a mesh: one thread each on a device, vector lanes along a row on a
+// host.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -16,8 +16,8 @@ struct ByPlace {
   KOKKOS_FUNCTION void operator()(int place) const { body(place / columns, place % columns); }
 };
 
-// Row I in blocks of a fixed number of lanes, which leave no remainder to a slow scalar loop: the last
-// block of a row begins early and computes some columns twice, to the same bits.
+// Row I in blocks of a fixed number of lanes, without a scalar loop for the remainder: the last block of a
+// row starts early and computes some columns twice, with bitwise identical results.
 template <class Body>
 struct ByRow {
   static constexpr int lanes = 8;  // doubles of the widest vector register
@@ -25,7 +25,7 @@ struct ByRow {
   Body body;
   int columns;
   void operator()(int I) const {
-    const Body row = body;  // a local copy, so that no store can be taken to change it
+    const Body row = body;  // a local copy, so that the compiler knows that no store changes it
     if (columns < lanes) {
       for (int J = 0; J < columns; ++J) row(I, J);
       return;

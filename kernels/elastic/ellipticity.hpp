@@ -1,8 +1,8 @@
 // Ellipticity of the membrane: Q_ij(N) = A_iMjN N_M N_N, the acoustic tensor of the undeformed
-// direction N. Its eigenvalues are the stiffness against a fine wave along N; where the smallest is not
-// positive the sheet may fold on any scale, and a mesh decides what is found.
+// direction N. Its eigenvalues are the stiffness against a fine wave along N. If the smallest is not positive
+// the sheet may fold on any scale, and the solution depends on the mesh.
 //
-// An edge load has no part in Q: the second derivative of J is antisymmetric in M and N.
+// An edge load adds nothing to Q: the second derivative of J is antisymmetric in M and N.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -13,7 +13,7 @@
 
 namespace myowave::elastic {
 
-// The smaller eigenvalue of Q along (cos angle, sin angle), in the unit of A.
+// The smaller eigenvalue of Q along (cos angle, sin angle), kPa.
 KOKKOS_INLINE_FUNCTION double acoustic_modulus(const SpatialTangent& A, double angle) {
   const double c = Kokkos::cos(angle), s = Kokkos::sin(angle);
   const double Q11 = A.a1111 * c * c + 2 * A.a1112 * c * s + A.a1212 * s * s,
@@ -22,10 +22,10 @@ KOKKOS_INLINE_FUNCTION double acoustic_modulus(const SpatialTangent& A, double a
   return 0.5 * (Q11 + Q22) - Kokkos::sqrt(0.25 * (Q11 - Q22) * (Q11 - Q22) + Q12 * Q12);
 }
 
-// The smallest over all directions: of 16, then between the neighbours of the lowest one.
+// The smallest over all directions: of 16, then by search between the neighbours of the lowest one.
 KOKKOS_INLINE_FUNCTION double least_acoustic_modulus(const SpatialTangent& A) {
   constexpr int directions = 16;
-  constexpr int thirds = 20;  // leave 3e-4 of the interval: 1e-7 of the minimum
+  constexpr int thirds = 20;  // shrinks the interval to 3e-4: the minimum is accurate to 1e-7
   constexpr double apart = 3.14159265358979323846 / directions;
   int lowest = 0;
   double least = acoustic_modulus(A, 0);
@@ -61,7 +61,7 @@ KOKKOS_INLINE_FUNCTION bool is_elliptic(const EnergyDerivatives& w, const Mat2& 
 }
 
 // Gauss points at which the membrane is not elliptic. Nodes (nodes, 2), length units; Ta (elements, 4), kPa.
-// Waits for the count.
+// Fences to return the count.
 template <class Space>
 int count_not_elliptic(const Space& space, const Membrane& membrane, const ElementGrid& grid,
                        const Nodes<typename Space::memory_space>& nodes,

@@ -54,7 +54,7 @@ KOKKOS_INLINE_FUNCTION constexpr ShapeGradient shape_gradient(int c, double xi_1
   return {(c % 2 == 1 ? along_2 : -along_2) / h, (c / 2 == 1 ? along_1 : -along_1) / h};
 }
 
-// F at xi, from differences along the edges: a translation of the element leaves it as it is.
+// F at xi, from differences along the edges, so that a translation of the element does not change it.
 KOKKOS_FORCEINLINE_FUNCTION Mat2 deformation_gradient(const ElementNodes& element, double xi_1, double xi_2,
                                                       double h) {
   const auto& x = element.x;
@@ -71,8 +71,8 @@ KOKKOS_FORCEINLINE_FUNCTION Mat2 gauss_deformation_gradient(const ElementNodes& 
   return deformation_gradient(element, gauss_coordinate(q % 2), gauss_coordinate(q / 2), h);
 }
 
-// Smallest J of the element. J is linear in xi on a bilinear element, so that it lies at a corner;
-// the Gauss points alone would let an inverted corner through.
+// Smallest J of the element. J is linear in xi on a bilinear element, so the smallest is at a corner. A check
+// at the Gauss points alone would miss an inverted corner.
 KOKKOS_FORCEINLINE_FUNCTION double min_corner_J(const ElementNodes& element, double h) {
   const double J_0 = determinant(deformation_gradient(element, 0, 0, h)),
                J_1 = determinant(deformation_gradient(element, 1, 0, h)),

@@ -1,9 +1,9 @@
-// The logarithm in operations that vectorise; the library's is a call for every lane.
+// The logarithm in operations that vectorise; the library function is one call a lane.
 //
 //   x = 2^k m, m in [1/sqrt 2, sqrt 2):  ln x = k ln 2 + 2 artanh z,  z = (m - 1)/(m + 1)
 //   artanh z = z (1 + z^2/3 + z^4/5 + ...)
 //
-// z^2 <= 0.0295, so that the first term left out, z^22/23, is below 1e-18.
+// z^2 <= 0.0295, so the first omitted term, z^22/23, is below 1e-18.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -11,7 +11,7 @@
 
 namespace myowave::elastic {
 
-// ln x to about the rounding of its result; x positive, finite, not denormal.
+// ln x to about the rounding error of the result; x positive, finite, not denormal.
 KOKKOS_FORCEINLINE_FUNCTION double natural_logarithm(double x) {
   constexpr double ln_2 = 0.693147180559945309417;
   constexpr int mantissa_bits = 52;

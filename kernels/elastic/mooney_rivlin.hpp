@@ -3,7 +3,7 @@
 //
 //   w = c1 (t + 1/A) + c2 (A + t/A)
 //
-// The paper prints no pressure term, and then the undeformed sheet is not free of stress; with the
+// The paper prints no pressure term. Without one the undeformed sheet would not be free of stress; with the
 // membrane closure S = 0 at C = I.
 #pragma once
 

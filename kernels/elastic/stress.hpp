@@ -6,8 +6,8 @@
 //            = 2 w_t delta_ij delta_MN + (4 A w_AA + 2 w_A) c_iM c_jN
 //              + 4 J w_tA (F_iM c_jN + c_iM F_jN) + 2 J w_A dc_iM/dF_jN
 //
-// With S = F^-1 P and C^-1 it is F_iP dS_PM/dE_QN F_jQ + delta_ij S_MN, at several times the cost.
-// w_tt = 0 in every term of this membrane, and is left out.
+// The form with S = F^-1 P and C^-1, F_iP dS_PM/dE_QN F_jQ + delta_ij S_MN, is equal and needs more
+// operations. w_tt = 0 for every term of this membrane, so it is omitted.
 #pragma once
 
 #include "kernels/base/tensor2.hpp"
