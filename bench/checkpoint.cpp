@@ -1,4 +1,4 @@
-// What a checkpoint costs, until it is safe on the disk of the folder for temporary files:
+// Time to write a checkpoint until it is on the disk, in the folder for temporary files:
 //   checkpoint / n      251: contracting, V, r, Ta, 25 x 25 elements; 4096: rigid, V, r
 #include "solver/run/checkpoint.hpp"
 
@@ -44,13 +44,13 @@ void time_checkpoint(benchmark::State& state, int n, bool contracts) {
   });
   std::vector<std::string> refused;
   const auto found = solver::find_checkpoint(folder, refused);
-  if (!found) return fail(state, "no checkpoint was kept");
+  if (!found) return fail(state, "no checkpoint was written");
   state.counters["bytes_per_s"] =
       benchmark::Counter(static_cast<double>(found->bytes.size()) * static_cast<double>(state.iterations()),
                          benchmark::Counter::kIsRate);
   solver::StateReader reader(found->state());
   sheet.load(reader, 0);
-  if (!reader.at_end()) fail(state, "more was kept than is read");
+  if (!reader.at_end()) fail(state, "the checkpoint has more bytes than were read");
   keeper.remove_all();
 }
 

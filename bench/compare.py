@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Tells which rows of a benchmark run became slower or faster than those of another.
+"""Lists the rows of a benchmark run that became slower or faster than in another run.
 
     bench/compare.py OLD.json NEW.json [--least PERCENT]
 
-Both files come from ./dev bench --repetitions 5 --json FILE. A row counts as changed where the times of
-its repetitions do not overlap and their medians differ by more than 5 percent. Exits 1 where a row
-became slower. A row with fewer than three repetitions has no spread: it is listed and never counted.
+Both files come from ./dev bench --repetitions 5 --json FILE. A row counts as changed if the times of its
+repetitions do not overlap and their medians differ by more than 5 percent. Exits with 1 if a row became
+slower. A row with fewer than three repetitions has no spread; it is listed and not counted.
 """
 
 import argparse
@@ -33,7 +33,7 @@ def times_by_row(results):
 
 
 def verdict(old, new, least):
-    """'slower', 'faster', 'same', or 'unknown' where there is no spread to judge by.
+    """'slower', 'faster', 'same', or 'unknown' if there are too few repetitions for a spread.
 
     >>> verdict([1.0, 1.1, 1.2], [1.3, 1.4, 1.5], 5)
     'slower'

@@ -1,4 +1,4 @@
-// The coupled run in a turbulent state, and its start:
+// The coupled run of a turbulent sheet, and the start-up of a run:
 //   coupled / float64|float32 / n / interval:STEPS      startup / n
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ void time_coupled(benchmark::State& state, int n, int interval, int steps) {
     for (auto _ : state) {
       state.PauseTiming();
       sheet.emplace(solver::Execution{}, scene, initial, phases, statistics);
-      sheet->solve_mechanics(0);  // contraction sets in at once: no interval of a run
+      sheet->solve_mechanics(0);  // outside the timing: this solve starts from an uncontracted sheet
       phases = {};
       statistics = {};
       Kokkos::fence("myowave::bench::before");
@@ -72,8 +72,8 @@ void time_coupled(benchmark::State& state, int n, int interval, int steps) {
   state.counters["min_J"] = statistics.min_J;
 }
 
-// From a scene to a sheet that can take its first step: memory, the analysis of the sparse system,
-// the loaded rest state.
+// From a scene to a sheet that can take its first step: allocation, analysis of the sparse system, loaded
+// rest state.
 void time_startup(benchmark::State& state, int n) {
   const solver::Scene scene = turbulence(n, 80);
   const auto size = static_cast<std::size_t>(n) * n;

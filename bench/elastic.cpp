@@ -1,4 +1,4 @@
-// Assembly of the elements, and their energies:   assemble|energies / elements a side
+// Assembly and energies of the elements:   elastic / assemble|energies / elements a side
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ elastic::Membrane membrane() {
   return {.passive = {.c1 = settings.c1, .c2 = settings.c2}, .load = {.follower = settings.p}};
 }
 
-// Empty where the residual of the assembled system is the reference's.
+// Empty if the residual of the assembled system equals the reference's.
 std::string check_residual(const solver::SparseSystem<ExecutionSpace>& system,
                            const elastic::ElementGrid& grid, const std::vector<double>& x,
                            const std::vector<double>& Ta) {

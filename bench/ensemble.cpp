@@ -1,12 +1,8 @@
-// Many small sheets:
-//   ensemble / launch|threads / float64|float32 / n / members:M   rigid steps only, ten a call as between two
-//   looks:
-//                                                                 one launch for all members, or each on a
-//                                                                 thread
-//   ensemble / rigid|contracting / float64|float32 / n / members:M   whole runs as a sweep makes them, with
-//   all
-//                                                                 that observes them
-#include "solver/run/ensemble.hpp"
+// Many small sheets. ensemble / WHAT / float64|float32 / n / members:M, where WHAT is
+//   launch|threads       rigid steps only, ten a call as between two samples: one launch for all members, or
+//                        one thread a member
+//   rigid|contracting    whole runs as in a sweep, with everything that observes them
+#include "solver/ensemble.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +12,7 @@
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
 #include "kernels/tissue/tiled_step.hpp"
-#include "solver/run/run.hpp"
+#include "solver/run.hpp"
 
 namespace myowave::bench {
 namespace {
@@ -110,7 +106,7 @@ void time_runs(benchmark::State& state, const Extent& extent, bool contracts, so
                           if (!summary.observables.death_tu) ++spirals;
                         });
   });
-  if (spirals != extent.members) fail(state, "a spiral has died");
+  if (spirals != extent.members) fail(state, "a spiral died");
   report_rate(state, extent);
 }
 

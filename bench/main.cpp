@@ -1,5 +1,5 @@
-// The benchmark suite. Options of its own, beside Google Benchmark's:
-//   --dry-run   small sheets, every row for an instant: does it run and are its results right?
+// The benchmark suite. Its own options, besides those of Google Benchmark:
+//   --dry-run   small sheets, every row once: checks that it runs and that its results are right
 //   --large     also the rows that take minutes
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ std::string processor() {
   return "unknown";
 }
 
-// "NAME: value; NAME: value" of what Kokkos prints on several lines.
+// What Kokkos prints on several lines, as "NAME: value; NAME: value".
 std::string kokkos_configuration() {
   std::ostringstream text;
   Kokkos::print_configuration(text);
@@ -38,7 +38,7 @@ std::string kokkos_configuration() {
   for (std::string line; std::getline(lines, line);) {
     const auto first = line.find_first_not_of(" \t");
     if (first == std::string::npos) continue;
-    // the JSON file must stay on one line and unquoted
+    // Google Benchmark writes the value to JSON without escaping it.
     std::replace_if(
         line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) || c == '"' || c == '\\'; },
         ' ');
@@ -52,8 +52,8 @@ bool take(std::vector<char*>& arguments, std::string_view option) {
 }
 
 void measure_machine(bench::Suite& suite) {
-  // The three arrays are far larger than a cache; the best of some repeats, for a machine is never
-  // faster than it is.
+  // The three arrays are far larger than a cache. The best of some repeats is nearest to what the machine can
+  // do.
   const std::size_t entries = suite.dry_run ? 1 << 20 : 1 << 25;
   const int repeats = suite.dry_run ? 2 : 10;
   suite.triad_bytes_per_s = plain::triad_bytes_per_s(entries, repeats);

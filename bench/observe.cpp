@@ -1,4 +1,4 @@
-// What a run looks at between its steps:
+// Samples that a run takes between its steps:
 //   observe / tips | state_check | probes | activation / float64|float32 / n     observe / areas / elements
 //   a side
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ void time_tips(benchmark::State& state, const Suite& suite, int n) {
                                              std::vector<double>(V.size()));
   const auto expected = reference::phase_singularities(grid, V, rates).size();
   if (static_cast<std::size_t>(tips) != expected)
-    fail(state, fmt::format("{} tips found and there are {}", tips, expected));
+    fail(state, fmt::format("{} tips found, expected {}", tips, expected));
 }
 
 template <class Real>
@@ -73,7 +73,7 @@ void time_state_check(benchmark::State& state, const Suite& suite, int n) {
   report(state, suite, seconds, "nodes_per_s", size, state_check_traffic<Real>(),
          suite.peak_flops_per_s<Real>());
   if (found.first_non_finite != -1)
-    fail(state, fmt::format("node {} passes for not finite", found.first_non_finite));
+    fail(state, fmt::format("node {} is reported as not finite", found.first_non_finite));
 }
 
 template <class Real>
@@ -111,7 +111,7 @@ void time_areas(benchmark::State& state, const Suite& suite, int elements) {
     }
 }
 
-// The sheet and the same a row further, by turns, so that records change as at a front.
+// Alternates between the sheet and the same sheet shifted by a row, so that records change as at a front.
 template <class Real>
 void time_activation(benchmark::State& state, const Suite& suite, int n) {
   const Sheet<Real> sheet(n), later(n);

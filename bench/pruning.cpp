@@ -1,4 +1,4 @@
-// What leaving out saves that a scene does not require:
+// Time saved by leaving out what a scene does not need:
 //   pruning / tension|feedback|contraction|mechanics|solve / n / full|pruned
 #include <fmt/format.h>
 
@@ -78,8 +78,8 @@ void time_interval(benchmark::State& state, const solver::Scene& scene) {
                          benchmark::Counter::kIsRate);
 }
 
-// One iteration is what is due when no tension has changed: a solve that finds that, and the metric of the
-// same nodes; or the look that tells.
+// One iteration is the due solve when no tension has changed. Full: a solve that starts at its solution, and
+// the metric of the same nodes. Pruned: the check that the tension has not changed.
 void time_still_solve(benchmark::State& state, int n, bool full) {
   using Host = Kokkos::DefaultHostExecutionSpace;
   using Metric = tissue::ConservativeMetric<double, MemorySpace>;

@@ -3,9 +3,9 @@
 
     bench/scaling.py EXECUTABLE [OPTION]...        the options are Google Benchmark's
 
-For every row: time an iteration with each number of threads, and the speed-up. For every family of
-rows that differ in their size alone: the exponent of time against the number of nodes or elements,
-between neighbouring sizes (1: cost grows like the size).
+For every row: time of an iteration with each number of threads, and the speed-up. For every family of rows
+that differ only in size: the exponent of time against the number of nodes or elements, between neighbouring
+sizes (1: time is proportional to size).
 """
 
 import json
@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-# Rows whose cost is a matter of size or threads; --benchmark_filter in the options replaces it.
+# Rows whose time depends on size or threads; --benchmark_filter in the options replaces it.
 DEFAULT_FILTER = "^(step|newton|elastic|factorize|coupled)/"
 
 
@@ -37,7 +37,7 @@ def family(name):
 
 
 def exponents(times):
-    """Of time against size squared, between neighbouring sizes; times: {size: seconds}.
+    """Exponents of time against size squared, between neighbouring sizes; times: {size: seconds}.
 
     >>> exponents({10: 1.0, 20: 4.0, 40: 32.0})
     [(10, 20, 1.0), (20, 40, 1.5)]
@@ -47,7 +47,7 @@ def exponents(times):
 
 
 def times_with(executable, threads, options):
-    """Seconds an iteration by row."""
+    """Seconds of an iteration, by row."""
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
         command = [executable, *options, f"--benchmark_out={file.name}", "--benchmark_out_format=json"]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL,

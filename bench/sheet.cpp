@@ -35,8 +35,8 @@ class Waves {
   std::vector<Wave> waves_;
 };
 
-// The angle of a point of the plane whose coordinates are two such fields: it winds round every
-// common zero, and a front there becomes a spiral.
+// The angle of the point whose coordinates are two such fields. It winds around each common zero of the two,
+// where a front becomes a spiral.
 class Phases {
  public:
   // In [0, 2 pi).
@@ -50,7 +50,7 @@ class Phases {
 };
 
 constexpr int scene_n = 251;
-// Spirals die in a sheet smaller than the scene's: such a one is a window of this one.
+// Spirals die in sheets smaller than the scene's, so a smaller sheet is a window of this one.
 constexpr int window_of = 301;
 
 // A rigid sheet in which spirals have settled.
@@ -101,7 +101,7 @@ class RigidSheet {
     advance(steps);
   }
 
-  // Excited, then refractory, then at rest as the angle grows; 80 t.u. make spirals of it.
+  // With growing angle: excited, refractory, at rest. After 80 t.u. these are spirals.
   void start_with_spirals() {
     constexpr int steps = 4000;
     const Phases phase;

@@ -96,7 +96,7 @@ void time_triangular_solve(benchmark::State& state, int elements) {
   check_solution(state, system, solver);
 }
 
-// The turbulent tensions forth and back, so that every solve starts one interval away.
+// The turbulent tensions forwards and backwards, so that every solve starts one interval from its solution.
 class Sequence {
  public:
   explicit Sequence(int elements) {
@@ -113,7 +113,7 @@ class Sequence {
   std::size_t at_ = 0;
 };
 
-// By the tests' reference: the residual of the unknowns is below the tolerance.
+// Checks by the tests' reference that the residual of the unknowns is below the tolerance.
 void check_equilibrium(benchmark::State& state, const elastic::ElementGrid& grid,
                        const std::vector<double>& Ta, const std::vector<double>& x) {
   const solver::MechanicsSettings settings;
@@ -157,13 +157,13 @@ void time_newton(benchmark::State& state, int elements) {
   const auto nodes = to_host(equilibrium.nodes());
   check_equilibrium(state, equilibrium.grid(), to_host(tension[at]), nodes);
 
-  // The yardstick goes its own way to the same equilibrium.
+  // The yardstick reaches the same equilibrium on its own path.
   plain::Newton yardstick(equilibrium.grid(), {});
   yardstick.solve(to_host(tension[at]));
   double distance = 0;
   for (std::size_t a = 0; a < nodes.size(); ++a)
     distance = std::max(distance, std::abs(nodes[a] - yardstick.nodes()[a]));
-  // What the tolerance of the residual leaves open, mostly a slow bending of the whole sheet.
+  // Uncertainty of the nodes at this tolerance of the residual, mostly a slow bending of the whole sheet.
   const double open = 1e-5 * equilibrium.grid().h * elements;
   if (!(distance <= open)) fail(state, fmt::format("the yardstick's nodes are {} away", distance));
 }

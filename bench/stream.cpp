@@ -1,4 +1,4 @@
-// STREAM's triad as a row, so that it stands beside the kernels in one table.
+// STREAM's triad as a row of the suite, measured in the same run as the kernels.
 #include "bench/plain/machine.hpp"
 #include "bench/suite.hpp"
 

@@ -1,4 +1,4 @@
-// What every subject of the suite shares: which sizes to run, how a row is timed and what it reports.
+// Shared by all benchmarks: which sizes to run, how a row is timed, and what it reports.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -19,7 +19,7 @@ using MemorySpace = ExecutionSpace::memory_space;
 struct Suite {
   bool dry_run = false;  // small sheets, each row once
   bool large = false;    // rows that take minutes
-  // Of this machine, measured at the start.
+  // Peaks of this machine, measured at the start.
   double triad_bytes_per_s = 0;
   double float64_flops_per_s = 0;
   double float32_flops_per_s = 0;
@@ -28,7 +28,7 @@ struct Suite {
   double peak_flops_per_s() const {
     return sizeof(Real) == sizeof(double) ? float64_flops_per_s : float32_flops_per_s;
   }
-  // In a dry run only those up to `small`.
+  // In a dry run only sizes up to `small`.
   std::vector<int> sizes(std::initializer_list<int> all, int small) const;
 };
 
@@ -46,17 +46,17 @@ void register_checkpoint(const Suite&);
 template <class Real>
 constexpr const char* precision_name = sizeof(Real) == sizeof(double) ? "float64" : "float32";
 
-// benchmark::RegisterBenchmark with what all rows have in common.
+// benchmark::RegisterBenchmark with the settings of all rows.
 template <class Body>
 benchmark::internal::Benchmark* add_row(const std::string& name, const Body& body) {
   return benchmark::RegisterBenchmark(name.c_str(), body)->UseRealTime()->Unit(benchmark::kMicrosecond);
 }
 
-// Times body(), one iteration, in batches: no work is under way when the clock starts or stops, and
-// launches follow one another without a fence as they do in a run. Returns the seconds of all.
+// Times body(), one iteration, in batches. No work is in flight when the clock starts or stops. Launches of a
+// batch follow one another without a fence, as in a run. Returns the seconds of all iterations.
 template <class Body>
 double measure(benchmark::State& state, int batch, const Body& body) {
-  body();  // pages, caches and clock are warm
+  body();  // warms pages, caches and clock
   Kokkos::fence("myowave::bench::before");
   const auto start = std::chrono::steady_clock::now();
   while (state.KeepRunningBatch(batch)) {
@@ -66,11 +66,11 @@ double measure(benchmark::State& state, int batch, const Body& body) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Iterations a batch: short kernels run for about a millisecond between two looks at the clock.
+// Iterations a batch: short kernels run for about a millisecond between two readings of the clock.
 constexpr int batch_of(double items) { return items < 5e5 ? static_cast<int>(1e6 / items) : 2; }
 
-// cell_steps_per_s or another rate of items, and what the machine could do: bytes_per_s, flops_per_s,
-// percent_of_triad (above 100 where the fields stay in the cache) and percent_of_flop_peak.
+// Sets the counters of a row: cell_steps_per_s or another rate of items, bytes_per_s, flops_per_s,
+// percent_of_triad (above 100 if the fields are in the cache) and percent_of_flop_peak.
 void report(benchmark::State&, const Suite&, double seconds, const char* rate, double items,
             const Traffic& item, double peak_flops_per_s);
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How much faster a sweep is than the same runs one after another.
+"""Compares the time of a sweep with that of the same runs, sequentially.
 
     bench/sweeps.py EXECUTABLE [--runs 64] [--duration 100] [--repetitions 3]
 
-EXECUTABLE is the `myowave` command. For rigid and for contracting sheets of 121 x 121 nodes: `myowave sweep` of so
-many values of mu1, and `myowave run` of each with all threads, as a loop in a shell would do it. The two take turns;
-medians are printed, with their ratio and the cell-steps a second of the sweep. The runs have no state to share.
+EXECUTABLE is the `myowave` command. For rigid and for contracting sheets of 121 x 121 nodes: `myowave sweep` of
+--runs values of mu1, and `myowave run` of each with all threads, as a loop in a shell would do it. The two are
+interleaved. Prints medians, their ratio and the cell-steps a second of the sweep. The runs share no initial state.
 """
 
 import argparse
@@ -41,7 +41,7 @@ num = {runs}
 
 
 def sections(text, parent):
-    """A scene as a table of another file.
+    """The text of a scene as tables below `parent` of another file.
 
     >>> sections("[grid]\\nn = 5\\n", "scene")
     '[scene.grid]\\nn = 5\\n'
@@ -91,7 +91,7 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3)
     options = parser.parse_args()
     dt = 0.02  # t.u., the default of a scene
-    print("| sheets | sweep, s | one after another, s | ratio | sweep, Mcell-steps/s |\n|---|---|---|---|---|")
+    print("| sheets | sweep, s | sequential runs, s | ratio | sweep, Mcell-steps/s |\n|---|---|---|---|---|")
     for contracts in (False, True):
         sweep, runs = compare(options.executable, contracts, options)
         a, b = statistics.median(sweep), statistics.median(runs)

@@ -160,7 +160,7 @@ class TiledSteps {
     fill(old_.Ta, [](int i, int j) { return static_cast<Real>(initial_Ta(i, j)); });
   }
 
-  // Of a launch, on the mean.
+  // Mean number of steps of a launch.
   double depth() const {
     using Tiled =
         tissue::TiledStep<ExecutionSpace, decltype(diffusion_), ModelOf<form, Real>, tissue::NoRecorder>;
@@ -239,7 +239,7 @@ class PlainStep {
 constexpr int checked_steps = 4;
 constexpr int checked_tiled_steps = 20;
 
-// The tests' reference is made to be read, not to be fast.
+// The tests' reference is slow; larger sheets are compared with the yardstick only.
 constexpr int largest_reference_n = 251;
 
 HostState reference_steps(Form form, int n, HostState state) {
@@ -258,7 +258,7 @@ HostState reference_steps(Form form, int n, HostState state) {
   return state;
 }
 
-// Empty where both agree; V and r are of order one, Ta of order k_Ta.
+// Empty if both agree; V and r are of order one, Ta of order k_Ta.
 std::string difference(const HostState& result, const HostState& expected, double tolerance) {
   const auto compare = [&](const char* field, const Values& a, const Values& b, double unit) -> std::string {
     for (std::size_t k = 0; k < a.size(); ++k)
@@ -273,7 +273,7 @@ std::string difference(const HostState& result, const HostState& expected, doubl
   return {};
 }
 
-// Steps on from where the timing ended, and the references beside it.
+// Continues the steps after the timing, and compares them with the references.
 template <Form form, class Real, class Stepper>
 std::string check(Stepper& stepper, int n, bool against_yardstick) {
   constexpr double tolerance = sizeof(Real) == sizeof(double) ? 1e-12 : 2e-5;

@@ -7,7 +7,7 @@ namespace myowave::bench {
 struct Traffic {
   double reads = 0;   // bytes
   double writes = 0;  // bytes
-  // Bytes of lines that are written without having been read: a host reads them first, a GPU does not.
+  // Bytes of lines that are only written: a host reads such a line first, a GPU does not.
   double allocates = 0;
   double flops = 0;  // additions, multiplications, divisions and comparisons that select
 

@@ -1,4 +1,4 @@
-// Between grid and elements:
+// Transfer between grid and elements:
 //   transfer / tension | conservative | expanded / float64|float32 / n
 #include <fmt/format.h>
 

@@ -98,7 +98,7 @@ double peak_flops_per_s(int repeats) {
     }
   });
   const double flops = 2.0 * (width / sizeof(Real)) * chains * length * threads;
-  return sum > 0 ? flops / seconds : 0;  // reading the sum keeps the loop
+  return sum > 0 ? flops / seconds : 0;  // uses the sum, so that the compiler keeps the loop
 }
 
 template double peak_flops_per_s<double>(int);

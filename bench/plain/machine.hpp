@@ -1,4 +1,4 @@
-// What the machine can do, measured in this process: memory bandwidth and arithmetic.
+// Peaks of the machine, measured in this process: memory bandwidth and arithmetic.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ class Triad {
   explicit Triad(std::size_t size);
   void operator()() const;
   std::size_t size() const { return a_.size(); }
-  // Every entry is what it must be.
+  // Whether every entry is right.
   bool is_right() const;
 
  private:

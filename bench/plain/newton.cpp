@@ -91,7 +91,7 @@ void Newton::solve(std::span<const double> Ta) {
   else
     start_uniform(Ta);
   if (!minimise(Ta)) {
-    // In parts, halved where Newton fails.
+    // Ramps the tension in parts, halved where Newton fails.
     double reached = 0, part = first_ramp_part;
     std::vector<double> start = nodes_, mixed(Ta.size());
     if (!solved_) {

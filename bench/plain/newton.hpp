@@ -1,8 +1,7 @@
 // The yardstick of the mechanics: Newton's method with a new tangent and a sparse factorisation in
-// every iteration, started from the last solution. Its loops are its own, so that they stay as they
-// are; the physics of one element (kernels/elastic/element.hpp), the pattern of the tangent
-// (solver/mechanics/mesh.hpp) and the sparse factorisation (solver/mechanics/linear/direct_solver.hpp) are
-// the product's.
+// every iteration, started from the last solution. Its loops are a copy that does not change. The physics of
+// one element (kernels/elastic/element.hpp), the pattern of the tangent (solver/mesh.hpp) and the sparse
+// factorisation (solver/direct_solver.hpp) are the product's.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +9,13 @@
 #include <vector>
 
 #include "kernels/elastic/element.hpp"
-#include "solver/mechanics/linear/direct_solver.hpp"
-#include "solver/mechanics/mesh.hpp"
-#include "solver/scene/scene.hpp"
+#include "solver/direct_solver.hpp"
+#include "solver/mesh.hpp"
+#include "solver/scene.hpp"
 
 namespace myowave::plain {
 
-// Where the time of the solves went.
+// Time of the phases of all solves.
 struct NewtonEffort {
   std::int64_t solves = 0, iterations = 0, factorizations = 0;
   double energy_s = 0, assemble_s = 0, factorize_s = 0, solve_s = 0;
@@ -26,7 +25,7 @@ class Newton {
  public:
   Newton(const elastic::ElementGrid&, const solver::MechanicsSettings&);
 
-  // Equilibrium with Ta (elements, 4), kPa. Throws std::runtime_error where there is none.
+  // Equilibrium with Ta (elements, 4), kPa. Throws std::runtime_error if it finds none.
   void solve(std::span<const double> Ta);
 
   // x1, x2 of every node.
@@ -40,7 +39,7 @@ class Newton {
   };
 
   bool minimise(std::span<const double> Ta);
-  // One direction and its line search; true where a step was accepted.
+  // One direction and its line search; true if a step was accepted.
   bool step(std::span<const double> Ta, double residual, double shift, Trial& current);
   Trial evaluate(std::span<const double> Ta, const std::vector<double>& x);
   void assemble(std::span<const double> Ta);

@@ -83,15 +83,15 @@ inline Node<Real> updated(const Constants<Real>& c, Real V, Real r, Real Ta, Rea
           Ta + c.dt * (V < c.threshold ? c.eps_below : c.eps_above) * (c.k_Ta * V - Ta)};
 }
 
-// A step has more streams, and more arithmetic between two lines of one, than the processor's own
-// prefetcher keeps ahead of: the hints bring the plain step nearer to what the triad moves.
+// A step reads more streams, with more arithmetic between two lines of one stream, than the hardware
+// prefetcher follows. With hints the plain step comes nearer to the bandwidth of the triad.
 template <class Real, class... Streams>
 inline void prefetch(int begin, int end, const Streams*... streams) {
   constexpr int line = 64 / sizeof(Real), distance = 2048 / sizeof(Real);  // columns
   for (int j = begin; j < end; j += line) (__builtin_prefetch(streams + j + distance), ...);
 }
 
-// body(west, j, east) along a row, mirrored at its ends; `streams` are the arrays that it goes along.
+// body(west, j, east) along a row, mirrored at its ends; `streams` are the arrays to prefetch.
 template <class Real, class Body, class... Streams>
 inline void along_row(int n, const Body& body, const Streams*... streams) {
   constexpr int block = 256 / sizeof(Real);  // columns between two rounds of hints
@@ -105,9 +105,8 @@ inline void along_row(int n, const Body& body, const Streams*... streams) {
   body(n - 2, n - 1, n - 2);
 }
 
-// The row functions take every row as a pointer of its own: gathered in a struct they would be stored
-// and read back at every call, which costs a third of a short row. The constants are copied: a store to
-// a field cannot change them.
+// The row functions take every row as a separate pointer: pointers in a struct would be stored and read back
+// at every call. The constants are copied, so that the compiler knows that no store to a field changes them.
 template <class Real>
 void identity_row(const Constants<Real>& constants, int n, const Real* __restrict below,
                   const Real* __restrict V, const Real* __restrict above, const Real* __restrict r,
@@ -125,7 +124,7 @@ void identity_row(const Constants<Real>& constants, int n, const Real* __restric
   along_row<Real>(n, update, above, r, Ta, V_next, r_next, Ta_next);
 }
 
-// Weights are shifted by one: [j + 1] is that of column j.
+// Weights are shifted by one: [j + 1] belongs to column j.
 template <class Real>
 void conservative_row(const Constants<Real>& constants, int n, const Real* __restrict east_weight,
                       const Real* __restrict north, const Real* __restrict north_below,
@@ -151,7 +150,7 @@ void conservative_row(const Constants<Real>& constants, int n, const Real* __res
                   Ta_next);
 }
 
-// A thread's share of the rows, in one call: one thread and many run the same instructions.
+// One thread's rows in one call, so that one thread and many run the same instructions.
 template <class Real>
 [[gnu::noinline]] void identity_rows(const Constants<Real>& c, int n, const Fields<Real>& old,
                                      const Fields<Real>& next, int first, int last) {
@@ -178,7 +177,7 @@ template <class Real>
   }
 }
 
-// body(first, last) on every thread's share of n rows.
+// body(first, last) with each thread's share of n rows.
 template <class Body>
 void share_rows(Threads threads, int n, const Body& body) {
 #if defined(_OPENMP)

@@ -1,5 +1,5 @@
-// The yardstick of the excitation step: what a careful programmer writes for this equation with C++
-// and OpenMP, without Kokkos. It stays as it is, so that ratios to it compare over the years.
+// The yardstick of the excitation step: a careful implementation in C++ and OpenMP, without Kokkos. It does
+// not change, so that ratios to it can be compared over the years.
 //
 // V, r and Ta go from old arrays to new ones. Fields are n x n, row-major. Parameters are those of
 // Nash & Panfilov 2004 as kernels/cell/ has them, law "delayed".
@@ -17,7 +17,7 @@ struct FreeMemory {
   void operator()(void* memory) const { std::free(memory); }
 };
 
-// Aligned to a cache line; every thread touches first the part that it will use.
+// Aligned to a cache line. Every thread first touches the part that it will use.
 template <class Real>
 class Array {
  public:
