@@ -35,7 +35,7 @@ std::string failure(const MechanicsSettings& settings, const GaussTension<Memory
   return "no failure";
 }
 
-TEST(NoEquilibrium, FollowerLoadOnASheetWithoutC2IsToldWithoutIterating) {
+TEST(NoEquilibrium, FollowerLoadOnASheetWithoutC2IsRefusedWithoutIterating) {
   MechanicsSettings settings;
   settings.c2 = 0;
   for (const double p : {4.0, 10.0, 1e6}) {
@@ -64,7 +64,7 @@ TEST(NoEquilibrium, BelowThatLoadThereIsOne) {
 }
 
 // At a bifurcation of the equibiaxial state w_aa = w_ab; a load that pushes would turn the sheet around.
-TEST(NoEquilibrium, DeadLoadsUnderWhichTheRestStateIsUnstableAreToldWithoutIterating) {
+TEST(NoEquilibrium, DeadLoadsWithAnUnstableRestStateAreRefusedWithoutIterating) {
   MechanicsSettings settings;
   settings.load = Load::dead;
   settings.p = largest_dead_load(settings);

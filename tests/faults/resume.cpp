@@ -154,7 +154,7 @@ class ResumedCommand : public testing::Test {
   }
 };
 
-TEST_F(ResumedCommand, StoppedBySignalsEndsAsIfItWasNot) {
+TEST_F(ResumedCommand, StoppedBySignalsIsTheUninterruptedRun) {
   for (const auto& text : {sheet, contracting}) {
     write_scene(text);
     const auto expected = undisturbed();
@@ -232,7 +232,7 @@ TEST_F(ResumedCommand, KilledAtAnyInstantLosesNothing) {
 
 // Files that cannot grow to the size of a checkpoint, as on a full disk: a run ends all the same, and tells
 // of each checkpoint that it has not; one that is stopped has to tell that it cannot be gone on with.
-TEST_F(ResumedCommand, WithoutRoomForACheckpointGoesOnWithoutIt) {
+TEST_F(ResumedCommand, WithoutRoomForACheckpointContinuesWithoutIt) {
   write_scene(contracting);
   std::vector<std::string> settings;
   for (const char* one : {"fields=false", "frames=false", "maps=false", "tips_every=1", "probes_every=1"})
@@ -268,7 +268,7 @@ TEST_F(ResumedCommand, WithoutRoomForACheckpointGoesOnWithoutIt) {
   EXPECT_EQ(run_myowave({"run", "--resume", out.string()}).status, 2);
 }
 
-TEST_F(ResumedCommand, NeedsItsSceneFileNoMore) {
+TEST_F(ResumedCommand, DoesNotNeedItsSceneFile) {
   write_scene(contracting);
   const auto expected = undisturbed();
   stop_on_the_way();
@@ -283,7 +283,7 @@ TEST_F(ResumedCommand, NeedsItsSceneFileNoMore) {
   expect_ends(expected);
 }
 
-TEST_F(ResumedCommand, TakesTheOneBeforeWhereTheNewestIsDamaged) {
+TEST_F(ResumedCommand, UsesThePreviousOneIfTheNewestIsDamaged) {
   write_scene(contracting);
   const auto expected = undisturbed();
   stop_on_the_way();
@@ -308,7 +308,7 @@ TEST_F(ResumedCommand, WithoutASoundCheckpointSaysWhatToDo) {
   EXPECT_EQ(read_text(out / "tips.csv"), before);
 }
 
-TEST_F(ResumedCommand, RefusesWhatDoesNotGoTogether) {
+TEST_F(ResumedCommand, RefusesInvalidUse) {
   write_scene(sheet);
   stop_on_the_way();
   for (const auto& more : std::vector<std::vector<std::string>>{

@@ -277,7 +277,7 @@ TEST_F(SweepFaults, ASmallDiskAndOneThatIsReadOnly) {
   EXPECT_THAT(why, AllOf(HasSubstr(disk), HasSubstr("Read-only file system")));
 }
 
-TEST_F(SweepFaults, AFolderRemovedMeanwhileIsTold) {
+TEST_F(SweepFaults, AFolderRemovedMeanwhileIsReported) {
   Process process(arguments(path("removed"), {"--quiet"}), folder_ / "errors");
   ASSERT_TRUE(Process::waits_until_there(folder_ / "removed/records/shard_1_of_1.jsonl"));
   for (int n = 0; n < 100 && fs::exists(folder_ / "removed"); ++n) {
@@ -291,7 +291,7 @@ TEST_F(SweepFaults, AFolderRemovedMeanwhileIsTold) {
   expect_whole("removed");
 }
 
-TEST_F(SweepFaults, DamagedRecordsAreToldAndDoneAgain) {
+TEST_F(SweepFaults, DamagedRecordsAreReportedAndRunAgain) {
   ASSERT_EQ(sweep("damaged").status, 0);
   const fs::path file = folder_ / "damaged/records/shard_1_of_1.jsonl";
   std::vector<std::string> lines;
@@ -312,7 +312,7 @@ TEST_F(SweepFaults, DamagedRecordsAreToldAndDoneAgain) {
   EXPECT_EQ(reproducible(path("damaged")), undisturbed());
 }
 
-TEST_F(SweepFaults, DamagedCheckpointsAreToldAndNotUsed) {
+TEST_F(SweepFaults, DamagedCheckpointsAreReportedAndNotUsed) {
   const auto checkpoints = [&] {
     std::vector<fs::path> files;
     std::error_code gone;  // those of members that end meanwhile

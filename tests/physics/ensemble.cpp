@@ -89,7 +89,7 @@ void with_threads(int threads, const std::function<void()>& test) {
     test();
 }
 
-TEST(Ensemble, MembersHaveTheBitsThatTheyHaveAlone) {
+TEST(Ensemble, MembersAreBitwiseTheRunsAlone) {
   with_threads(3, [] {
     const auto scenes = members();
     std::vector<Outcome> alone(scenes.size());
@@ -131,7 +131,7 @@ TEST(Ensemble, TakesEachMemberOnceAndEndsWithTheFirstError) {
   });
 }
 
-TEST(Ensemble, ARunThatIsAskedToStopSaysSo) {
+TEST(Ensemble, ARunStoppedOnRequestReportsIt) {
   const solver::Scene scene = spiral(0.1, true, solver::Precision::float64);
   const std::atomic<bool> stop = true;
   test::RecordingSink sink;

@@ -111,7 +111,7 @@ TEST(Instability, BelowTheBoundTheSheetIsRight) {
   EXPECT_FALSE(step_unguarded<float>(spiral(61, 0.06, 40)).problem);
 }
 
-TEST(Instability, PastItTheSheetIsFiniteAndWrongAndIsFound) {
+TEST(Instability, PastTheBoundWrongFiniteStatesAreFound) {
   for (const double dt : {0.073, 0.077, 0.081, 0.085}) {
     for (const bool single : {false, true}) {
       const Scene scene = spiral(61, dt, 20);
@@ -127,14 +127,14 @@ TEST(Instability, PastItTheSheetIsFiniteAndWrongAndIsFound) {
   }
 }
 
-TEST(Instability, FurtherOnItBlowsUpAndIsFound) {
+TEST(Instability, StatesThatBlowUpAreFound) {
   const Unguarded seen = step_unguarded(spiral(61, 0.15, 20));
   ASSERT_TRUE(seen.problem);
   EXPECT_THAT(*seen.problem, HasSubstr("is not finite at node (row "));
 }
 
 // Strong tension and a load under which elements shrink to a fifth of their area: no alarm either.
-TEST(Instability, ContractedSheetsAreNoFault) {
+TEST(Instability, ContractedSheetsAreValid) {
   for (const auto metric : {solver::MetricForm::conservative, solver::MetricForm::expanded}) {
     Scene scene = spiral(61, 0.02, 30);
     scene.metric = metric;
@@ -149,7 +149,7 @@ TEST(Instability, ContractedSheetsAreNoFault) {
 }
 
 // A front sharper than the grid has noise, but not of this kind: no alarm.
-TEST(Instability, FrontsThatTheGridResolvesBadlyAreNoFault) {
+TEST(Instability, BadlyResolvedFrontsAreValid) {
   for (const double D : {0.2, 0.05, 0.01}) {
     Scene scene = spiral(41, 0, 20);
     scene.excitation.D = D;
@@ -189,7 +189,7 @@ Scene strong_current(double dt) {
   return scene;
 }
 
-TEST(Instability, WhatTheBoundDoesNotTellStopsTheRun) {
+TEST(Instability, InstabilityBelowTheBoundStopsTheRun) {
   const Outcome stopped = run(strong_current(0.06));
   EXPECT_THAT(stopped.failure, AllOf(HasSubstr("t = "), HasSubstr("node (row "),
                                      HasSubstr("Use a smaller time.dt"), HasSubstr("on_unstable")));
@@ -243,7 +243,7 @@ TEST(Instability, AContractionPastTheBoundStopsOrIsSubstepped) {
   EXPECT_LT(relative_difference(healed.state.V, fine.state.V), 0.01);  // measured: 0.0049
 }
 
-TEST(Instability, WhereNothingIsUnstableSubstepChangesNoBit) {
+TEST(Instability, WithoutInstabilitySubstepIsBitwiseIdentical) {
   for (const bool deforms : {false, true}) {
     Scene scene = deforms ? contracting(0.02, 6) : spiral(41, 0.06, 12);
     scene.output.probes = {{10, 10}, {20, 25}};
@@ -260,7 +260,7 @@ TEST(Instability, WhereNothingIsUnstableSubstepChangesNoBit) {
 }
 
 // r = -0.1 in a sheet at rest is below -eps mu2 / mu1 = -0.025: the equations themselves run away.
-TEST(Instability, WhatSmallerStepsDoNotHealEndsTheRun) {
+TEST(Instability, InstabilityOfTheEquationsEndsTheRun) {
   Scene scene;
   scene.grid = {11, 11, 0.6};
   scene.time.t_end = 40;

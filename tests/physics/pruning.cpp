@@ -126,7 +126,7 @@ TEST(Pruning, WithoutAnOutputOfTensionARigidSheetHasNone) {
   }
 }
 
-TEST(Pruning, AContractingSheetHasTensionAsDoesWhatComesBeforeIt) {
+TEST(Pruning, AContractingSheetAndItsPreconditionHaveTension) {
   Scene scene = deforming_front();
   scene.initial.preconditions = {{1, false, scene.excitation, scene.tension}};
   const test::RecordedRun shown = test::recorded_run(scene);
@@ -148,7 +148,7 @@ struct StillCase {
 
 class StillSheet : public ::testing::TestWithParam<std::tuple<StillCase, MetricForm, solver::MetricTime>> {};
 
-TEST_P(StillSheet, IsNotSolvedAgainAndIsTheSameToTheBit) {
+TEST_P(StillSheet, IsNotSolvedAgainAndIsBitwiseIdentical) {
   const auto& [still, metric, time] = GetParam();
   Scene scene = deforming_front();
   scene.metric = metric;
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // The steps of a wave that begins later: solves are left out until Ta moves, then none is.
-TEST(Pruning, SolvesBeginWhenTheTensionMoves) {
+TEST(Pruning, SolvesStartWhenTheTensionChanges) {
   Scene scene = deforming_front();
   scene.initial.type = solver::InitialSettings::Type::rest;
   constexpr int still = 5;
@@ -201,7 +201,7 @@ TEST(Pruning, SolvesBeginWhenTheTensionMoves) {
   EXPECT_LT(result.summary.observables.area->first, 0.95);
 }
 
-TEST(Pruning, NothingIsStoredOrComputedThatNobodyAsksFor) {
+TEST(Pruning, UnneededPartsAreNotAllocatedOrComputed) {
   Scene scene = front();
   scene.output.probes.clear();
   const Recording rigid = record([&] { test::recorded_run(scene); });
@@ -222,7 +222,7 @@ TEST(Pruning, NothingIsStoredOrComputedThatNobodyAsksFor) {
 }
 
 // More tips than there is room for: a noisy sheet.
-TEST(Pruning, RoomForTipsIsMadeWhenTheyAreThere) {
+TEST(Pruning, MemoryForTipsGrowsWithTheirNumber) {
   Scene scene = front(81);
   scene.time.t_end = 0;
   auto state = solver::make_initial_state(scene);

@@ -147,7 +147,7 @@ std::vector<double> hill_of_tension(const solver::GridSettings& grid, Draw& draw
 
 // The stencil adds opposite neighbours first, so that a rigid sheet knows no direction at all; and what does
 // not load it does not act on V and r.
-TEST(RandomInvariants, TurnedOrWithoutTensionGiveTheSameBits) {
+TEST(RandomInvariants, TurnedOrWithoutTensionAreBitwiseIdentical) {
   std::uint64_t seed = 0;
   for_random_scenes(100, random_scene, [&](const std::string& text) {
     Scene scene = parsed(text);

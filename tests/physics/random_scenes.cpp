@@ -79,7 +79,7 @@ void expect_sound_state(const Scene& scene, const Result& result) {
   EXPECT_EQ(watch.areas.empty(), !scene.mechanics);
 }
 
-TEST(RandomScenes, EndInOrderInsideTheBoundsOfTheEquations) {
+TEST(RandomScenes, EndProperlyWithinTheBoundsOfTheEquations) {
   std::map<End, int> ends;
   int bounded = 0, tight = 0;
   for_random_scenes(300, random_scene, [&](const std::string& text) {
@@ -106,7 +106,7 @@ TEST(RandomScenes, EndInOrderInsideTheBoundsOfTheEquations) {
              ends[End::failed], bounded, tight);
 }
 
-TEST(RandomScenes, AtTheEndsOfTheirRangesEndInOrder) {
+TEST(RandomScenes, AtTheEndsOfTheirRangesEndProperly) {
   std::map<End, int> ends;
   for_random_scenes(300, random_extreme_scene, [&](const std::string& text) {
     Scene scene;
@@ -126,7 +126,7 @@ TEST(RandomScenes, AtTheEndsOfTheirRangesEndInOrder) {
              ends[End::failed]);
 }
 
-TEST(RandomScenes, TwiceGiveTheSameBits) {
+TEST(RandomScenes, TwiceAreBitwiseIdentical) {
   for_random_scenes(100, random_scene, [&](const std::string& text) {
     const Scene scene = parsed(text);
     const Result first = run(scene, initial_state(scene)), second = run(scene, initial_state(scene));

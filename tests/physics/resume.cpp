@@ -159,7 +159,7 @@ struct Case {
 
 class Resume : public testing::TestWithParam<Case> {};
 
-TEST_P(Resume, GivesTheBitsOfARunThatWasNeverStopped) {
+TEST_P(Resume, IsBitwiseARunThatWasNeverStopped) {
   solver::Scene scene = spiral(GetParam().contracts);
   GetParam().change(scene);
   const std::string whole = undisturbed(scene);
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return one.param.name; });
 
 // Those of preconditions are kept where checkpoint_every asks for them: nothing is sampled then.
-TEST(ResumeOfAPrecondition, GivesTheBitsOfARunThatWasNeverStopped) {
+TEST(ResumeOfAPrecondition, IsBitwiseARunThatWasNeverStopped) {
   solver::Scene scene = spiral(true);
   scene.initial.preconditions = {{.duration = 4, .contraction = false, .excitation = {}, .tension = {}},
                                  {.duration = 6, .contraction = true, .excitation = {}, .tension = {}}};
@@ -260,7 +260,7 @@ TEST(ResumeOfAPrecondition, GivesTheBitsOfARunThatWasNeverStopped) {
 }
 
 // With checkpoint_every a run leaves its last two, from either of which it goes on.
-TEST(Checkpoints, ComeAtTheirIntervalAndTheLastTwoStay) {
+TEST(Checkpoints, AreWrittenAtTheirIntervalAndTheLastTwoRemain) {
   solver::Scene scene = spiral(true);
   const std::string whole = undisturbed(scene);
   scene.output.checkpoint_every = 3;
@@ -328,7 +328,7 @@ TEST(Checkpoints, OfAStageThatTheSceneDoesNotHaveAreRefused) {
 }
 
 // Any scene, stopped at each of its looks or only now and then.
-TEST(RandomScenes, StoppedAndGoneOnWithGiveTheSameBits) {
+TEST(RandomScenes, StoppedAndResumedAreBitwiseIdentical) {
   int gone_on = 0;
   test::for_random_scenes(100, test::random_scene, [&](const std::string& text) {
     const solver::Scene scene = test::parsed(text);
@@ -352,7 +352,7 @@ TEST(RandomScenes, StoppedAndGoneOnWithGiveTheSameBits) {
 }
 
 // Another number of threads goes on with the same bits.
-TEST(Checkpoints, GoOnWithAnotherNumberOfThreads) {
+TEST(Checkpoints, ResumeWithAnotherNumberOfThreads) {
   if (Kokkos::DefaultExecutionSpace::name() != std::string("OpenMP"))
     GTEST_SKIP() << "the number of threads is not OpenMP's";
   solver::Scene scene = spiral(true);

@@ -52,7 +52,7 @@ double number_after(const std::string& text, const std::string& words) {
   return std::stod(match[1]);
 }
 
-TEST(RunInvariants, TheSameRunTwiceIsTheSameToTheBit) {
+TEST(RunInvariants, TheSameRunTwiceIsBitwiseIdentical) {
   Scene scene = spiral(61);
   scene.time.t_end = 10;
   scene.mechanics.emplace();
@@ -264,7 +264,7 @@ TEST(RunInvariants, AStateThatBlowsUpIsReportedWithinAnInterval) {
   EXPECT_THAT(message, HasSubstr("row 7, column 11"));
 }
 
-TEST(RunInvariants, SummaryTellsHowFarAFailedRunCame) {
+TEST(RunInvariants, SummaryReportsTheProgressOfAFailedRun) {
   Scene scene = spiral(21);
   scene.time.t_end = 50;
   scene.stimuli = {lightning(3.96)};

@@ -61,7 +61,7 @@ TEST(Sampling, ElementAreasAreThoseOfTheNodesShown) {
   EXPECT_TRUE(all_close(run.sink.element_area_samples.back().ratios, expected, 4, {.absolute = 1e-8}));
 }
 
-TEST(Sampling, ElementAreasAreShownWhereAskedFor) {
+TEST(Sampling, ElementAreasAreSampledOnRequest) {
   Scene scene = contracting_sheet();
   scene.time.t_end = 1;
   scene.output.element_areas = false;
@@ -71,7 +71,7 @@ TEST(Sampling, ElementAreasAreShownWhereAskedFor) {
   EXPECT_TRUE(test::recorded_run(scene).sink.element_area_samples.empty()) << "a rigid sheet has none";
 }
 
-TEST(Sampling, BeginsAtTheFirstMultipleAndEndsWithTheRun) {
+TEST(Sampling, StartsAtTheFirstMultipleAndEndsWithTheRun) {
   Scene scene = contracting_sheet();
   scene.output.every = 0.6;
   scene.time.t_end = 2;
@@ -162,7 +162,7 @@ TEST(Sampling, MapOfAPacedSheetHasThePeriodOfTheStimulus) {
   EXPECT_EQ(run.summary.observables.conduction_velocity->n, 0);
 }
 
-TEST(Sampling, MapsLeaveTheRunAsItIs) {
+TEST(Sampling, MapsDoNotChangeTheRun) {
   Scene scene = contracting_sheet();
   const test::RecordedRun without = test::recorded_run(scene);
   scene.output.maps = true;

@@ -122,7 +122,7 @@ const Deformation deformations[] = {
 
 class Bound : public ::testing::TestWithParam<Deformation> {};
 
-TEST_P(Bound, IsKeptByTheConservativeForm) {
+TEST_P(Bound, HoldsForTheConservativeForm) {
   for (const auto precision : {Precision::float64, Precision::float32}) {
     const auto sheet = sheet_of(MetricForm::conservative, precision, GetParam().cells, GetParam().x);
     const double bound = solver::stability_bounds(sheet).excited;
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(StabilityMaps, Bound, ::testing::ValuesIn(deformations)
                          [](const auto& test) { return std::string(test.param.name); });
 
 // The watch of a run and the maps judge apart from one another.
-TEST(StabilityMaps, TheWatchOfARunTellsOfWhatIsWrongAndOfNothingElse) {
+TEST(StabilityMaps, TheChecksOfARunFindWrongStatesAndNoOthers) {
   const auto sheet = sheet_of(MetricForm::none, Precision::float64, 10, undeformed);
   for (const double dt : {0.02, 0.067}) EXPECT_FALSE(solver::try_steps(sheet, dt).told) << dt;
   for (const double dt : {0.072, 0.077, 0.085, 0.09}) EXPECT_TRUE(solver::try_steps(sheet, dt).told) << dt;

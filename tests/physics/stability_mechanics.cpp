@@ -78,7 +78,7 @@ TEST(MechanicsMap, UniformTensionOf200KilopascalKeepsItsArea) {
   }
 }
 
-TEST(MechanicsMap, NoPatternOnASmallMeshPassesUnnoticed) {
+TEST(MechanicsMap, NoPatternOnASmallMeshIsSilentlyWrong) {
   for (int pattern = 0; pattern <= static_cast<int>(TensionPattern::sharp_spiral); ++pattern)
     for (const double k_Ta : {0.0, 47.9, 200.0})
       for (const int side : {1, 2, 5})

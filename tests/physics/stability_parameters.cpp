@@ -39,7 +39,7 @@ TEST(ParameterMap, WithoutRecoveryTheSheetStaysExcited) {
   EXPECT_NEAR(result.largest_V, 1, 1e-4);
 }
 
-TEST(ParameterMap, RecoveryThatNoStepFollowsIsToldOf) {
+TEST(ParameterMap, RecoveryTooFastForTheStepIsReported) {
   ParameterCase one = front();
   for (const double mu2 : {1e-3, 1e-6}) {
     one.scene.excitation.mu2 = mu2;
@@ -88,7 +88,7 @@ TEST(ParameterMap, NegativeRecoveryAboveTheThresholdDiesOutAndBelowRunsAway) {
   EXPECT_TRUE(with_r(-0.026) == ParameterOutcome::stopped || with_r(-0.026) == ParameterOutcome::refused);
 }
 
-TEST(ParameterMap, StimuliOfAnySizeAreRightOrToldOf) {
+TEST(ParameterMap, StimuliOfAnySizeAreRightOrReported) {
   for (const double amplitude : {-1e6, -10.0, 10.0, 1e3, 1e6, 1e300}) {
     ParameterCase one = front();
     one.scene.initial.type = InitialSettings::Type::rest;

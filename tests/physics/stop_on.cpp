@@ -29,7 +29,7 @@ Scene one_wave() {
   return scene;
 }
 
-TEST(StopOn, DeathEndsTheRunAtTheLookThatSeesIt) {
+TEST(StopOn, DeathEndsTheRunAtTheSampleThatFindsIt) {
   Scene scene = one_wave();
   const auto whole = recorded_run(scene);
   ASSERT_TRUE(whole.summary.observables.death_tu);
@@ -69,7 +69,7 @@ TEST(StopOn, AStateAsLongAsTheShortenedRunIsTheSame) {
 }
 
 // A stimulus to come is no death.
-TEST(StopOn, WhatIsToComeIsWaitedFor) {
+TEST(StopOn, AFutureStimulusIsAwaited) {
   Scene scene = one_wave();
   scene.time.stop_on = {true, true};
   scene.time.t_end = 260;
@@ -95,7 +95,7 @@ TEST(StopOn, BreakupEndsTheRunOnceItHasLasted) {
   EXPECT_EQ(run.sink.last_frame_t, run.summary.t);
 }
 
-TEST(StopOn, NothingHappensWhereNothingComes) {
+TEST(StopOn, WithoutAnEventTheRunReachesItsEnd) {
   Scene scene = one_wave();
   scene.time.stop_on = {true, true};
   scene.time.t_end = 20;

@@ -11,7 +11,7 @@
 namespace myowave {
 namespace {
 
-TEST(Check, TellsThePlanTheMemoryAndTheTimeAndLeavesNothingBehind) {
+TEST(Check, PrintsPlanMemoryAndTimeAndLeavesNoFiles) {
   const test::TemporaryFolder folder;
   setenv("TMPDIR", folder.path().c_str(), 1);
   const test::Outcome outcome = test::run_myowave(

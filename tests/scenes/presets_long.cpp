@@ -39,11 +39,11 @@ void expect_promises(const nlohmann::json& settings, std::vector<std::string> al
     EXPECT_LT(error(settings, "balanced", of), error(settings, "fast", of)) << of;
 }
 
-TEST(Presets, OfARigidSheetKeepTheirPromises) {
+TEST(Presets, OnARigidSheetHaveTheDocumentedErrors) {
   expect_promises(settings_of_spiral({"mechanics.on=false"}), {});
 }
 
-TEST(Presets, OfAContractingSheetKeepTheirPromises) {
+TEST(Presets, OnAContractingSheetHaveTheDocumentedErrors) {
   expect_promises(settings_of_spiral({}), {"shortening"});
 }
 

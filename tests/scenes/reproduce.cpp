@@ -81,7 +81,7 @@ TEST(Reproduce, AreasOfSpiralAndRadialWaves) {
   EXPECT_THAT(test::read_text(made.file("results.md")), HasSubstr("| Fig 5 | spiral, centre row |"));
 }
 
-TEST(Reproduce, RefusesAFigureThatThereIsNot) {
+TEST(Reproduce, RefusesAnUnknownFigure) {
   const Reproduction made({"12"});
   EXPECT_EQ(made.outcome.status, 2);
   EXPECT_THAT(made.outcome.errors, HasSubstr("there is no figure \"12\""));

@@ -135,7 +135,7 @@ TEST_F(Sweeps, AreTheSameInAnyPartsAndOrder) {
   EXPECT_TRUE(fs::exists(folder_ / "parts/records/shard_2_of_3.jsonl"));
 }
 
-TEST_F(Sweeps, DoOnlyWhatIsNotDone) {
+TEST_F(Sweeps, RunOnlyWhatIsMissing) {
   write(small_sweep);
   ASSERT_EQ(sweep({"--out", path("a")}).status, 0);
   const std::string records = read_text(folder_ / "a/records/shard_1_of_1.jsonl");
@@ -153,7 +153,7 @@ TEST_F(Sweeps, DoOnlyWhatIsNotDone) {
   EXPECT_EQ(table("a")["rows"][2]["excitation.mu1"], 0.13);
 }
 
-TEST_F(Sweeps, FailedRunsAreRecordsAndStopNothing) {
+TEST_F(Sweeps, FailedRunsAreRecordedAndOthersContinue) {
   // So strong a stimulus leaves no finite V.
   write(R"(
 [stop]
@@ -193,7 +193,7 @@ TEST_F(Sweeps, ADryRunWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "dry"));
 }
 
-TEST_F(Sweeps, TellWhatIsWrong) {
+TEST_F(Sweeps, ReportWhatIsWrong) {
   write(small_sweep);
   EXPECT_EQ(sweep({"--shard", "0/3"}).status, 2);
   EXPECT_THAT(sweep({"--shard", "4/3"}).errors, HasSubstr("--shard must be I/N with I from 1 to N"));
@@ -258,7 +258,7 @@ TEST_F(Sweeps, TheLineForGnuParallelDoesAllShards) {
 }
 
 // Records as another revision would have left them.
-TEST_F(Sweeps, RedoesOtherRevisionsWhereAsked) {
+TEST_F(Sweeps, RepeatsRunsOfOtherRevisionsOnRequest) {
   write(small_sweep);
   ASSERT_EQ(sweep({"--out", path("a")}).status, 0);
   const json expected = reproducible("a");

@@ -53,7 +53,7 @@ every = 5
 period_from = 0
 )";
 
-TEST(Tradeoff, OfARigidSheetTellsCostAndErrorOfEachSetting) {
+TEST(Tradeoff, OfARigidSheetReportsCostAndErrorOfEachSetting) {
   const Tradeoff made(rigid, {"--axes", "time.dt=0.01,0.05,0.5;precision", "--target", "cv=2%,apd=2%"});
   ASSERT_EQ(made.outcome.status, 0) << made.outcome.errors;
   const auto results = made.results();
@@ -96,7 +96,7 @@ TEST(Tradeoff, OfAContractingSheetHasTheMechanicsDialsAndNamesTheNearestSetting)
 }
 
 // P15 at mu1 = 0.105: with the paper's steps, whose waves are 3 % slow, the spiral stays whole.
-TEST(Tradeoff, TellsWhenASpiralBreaksUp) {
+TEST(Tradeoff, ReportsWhenASpiralBreaksUp) {
   const Tradeoff made(R"(
 [grid]
 n = 121
@@ -122,7 +122,7 @@ precondition = { duration = 270, mu1 = 0.15 }
   EXPECT_THAT(made.outcome.output, testing::ContainsRegex("paper .* does not occur"));
 }
 
-TEST(Tradeoff, LeavesOutWhatABudgetHasNoTimeForAndSaysSo) {
+TEST(Tradeoff, LeavesOutWhatExceedsTheBudgetAndSaysSo) {
   const Tradeoff made(rigid, {"--axes", "dt=0.01", "--budget", "1e-9"});
   ASSERT_EQ(made.outcome.status, 0) << made.outcome.errors;
   const auto results = made.results();
@@ -131,7 +131,7 @@ TEST(Tradeoff, LeavesOutWhatABudgetHasNoTimeForAndSaysSo) {
   EXPECT_THAT(made.outcome.output, HasSubstr("fast: left out: the budget was spent"));
 }
 
-TEST(Tradeoff, RefusesWhatIsWrongBeforeItRuns) {
+TEST(Tradeoff, RefusesInvalidInputBeforeItRuns) {
   const auto errors = [](std::vector<std::string> arguments) {
     const Tradeoff made(rigid, std::move(arguments));
     EXPECT_EQ(made.outcome.status, 2);

@@ -38,8 +38,8 @@ std::vector<std::string> blocks(const std::string& markdown, const std::string& 
   return inside;
 }
 
-TEST(Tutorial, DoesWhatItSays) {
-  const std::string tutorial = read_text(MYOWAVE_SOURCE_DIR "/apps/cli/tutorial.md");
+TEST(Tutorial, CommandsHaveTheDocumentedOutput) {
+  const std::string tutorial = read_text(MYOWAVE_SOURCE_DIR "/apps/tutorial.md");
   const TemporaryFolder temporary;
   const fs::path folder = temporary / "spirals";
   fs::create_directory(folder);

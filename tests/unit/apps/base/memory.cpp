@@ -18,7 +18,7 @@ TEST(Memory, HoldsAsManyRunsAsFitBesideEachOther) {
 
 TEST(Memory, HoldsOneRunAtLeast) { EXPECT_EQ(runs_that_fit(8, {.host = 100, .device = 0}, 99, 0), 1); }
 
-TEST(Memory, BoundsNothingWhereItIsNotKnownOrNotNeeded) {
+TEST(Memory, SetsNoLimitIfUnknownOrNotNeeded) {
   EXPECT_EQ(runs_that_fit(8, {.host = 100, .device = 40}, std::nullopt, std::nullopt), 8);
   EXPECT_EQ(runs_that_fit(8, {.host = 100, .device = 40}, std::nullopt, 120), 3);
   EXPECT_EQ(runs_that_fit(8, {}, 0, 0), 8);

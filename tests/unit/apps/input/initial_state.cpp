@@ -82,7 +82,7 @@ TEST(ReadState, TakesPlainDatasetsAndNoTension) {
   EXPECT_EQ(state.Ta, std::vector<double>(12, 0.0));
 }
 
-TEST(ReadState, SaysWhatIsWrongWithAFile) {
+TEST(ReadState, ReportsWhatIsWrongWithAFile) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal(folder / "none.h5", 3, 4), AllOf(HasSubstr("none.h5"), HasSubstr("no such file")));
   EXPECT_THAT(refusal(folder.path(), 3, 4), HasSubstr("HDF5"));
@@ -134,7 +134,7 @@ class StateCache : public testing::Test {
   int computed_ = 0;
 };
 
-TEST_F(StateCache, ComputesOnceAndGivesBackTheLastBit) {
+TEST_F(StateCache, ComputesOnceAndReadsBackBitwiseIdentical) {
   const auto path = folder_ / "deep/state.h5";
   const auto first = get(path), second = get(path);
   EXPECT_EQ(computed_, 1);
@@ -147,7 +147,7 @@ TEST_F(StateCache, ComputesOnceAndGivesBackTheLastBit) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "deep"), {}), 1);
 }
 
-TEST_F(StateCache, ComputesAnewWhatIsDamaged) {
+TEST_F(StateCache, RecomputesADamagedState) {
   const auto path = folder_ / "state.h5";
   get(path);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
@@ -171,14 +171,14 @@ TEST_F(StateCache, ComputesAnewWhatIsDamaged) {
   EXPECT_EQ(computed_, 4) << "empty";
 }
 
-TEST_F(StateCache, ComputesAnewWhatIsOfAnotherDefinition) {
+TEST_F(StateCache, RecomputesAStateOfAnotherDefinition) {
   const auto path = folder_ / "state.h5";
   get(path, "one");
   get(path, "other");
   EXPECT_EQ(computed_, 2);
 }
 
-TEST_F(StateCache, WorksWhereNothingCanBeKept) {
+TEST_F(StateCache, WorksWithoutAWritableFolder) {
   std::ofstream(folder_ / "file") << "";
   testing::internal::CaptureStderr();
   EXPECT_EQ(get(folder_ / "file/state.h5").V[0], 0.1);
@@ -187,7 +187,7 @@ TEST_F(StateCache, WorksWhereNothingCanBeKept) {
   EXPECT_EQ(computed_, 2);
 }
 
-TEST_F(StateCache, LiesWhereTheUserKeepsCaches) {
+TEST_F(StateCache, UsesTheUsersCacheFolder) {
   setenv("XDG_CACHE_HOME", "/somewhere", 1);
   const auto path = cached_state_path("spiral", "definition");
   EXPECT_EQ(path.parent_path(), "/somewhere/myowave");

@@ -89,7 +89,7 @@ TEST(RunJobs, FailureEndsOnlyThoseThatNeedIt) {
   EXPECT_EQ(told.names.size(), 3u);
 }
 
-TEST(RunJobs, WhatIsDoneIsKeptUntilItsSceneChanges) {
+TEST(RunJobs, FinishedRunsAreReusedUntilTheirSceneChanges) {
   if (git_dirty) GTEST_SKIP() << "a program with changes that are in no commit does every run again";
   const test::TemporaryFolder folder;
   const std::string from_first =
@@ -104,7 +104,7 @@ TEST(RunJobs, WhatIsDoneIsKeptUntilItsSceneChanges) {
   EXPECT_FALSE(changed.outcomes.at("second").reused);
 }
 
-TEST(RunJobs, NumberAtOnceChangesNoResult) {
+TEST(RunJobs, TheNumberOfParallelRunsChangesNoResult) {
   const test::TemporaryFolder one, three;
   std::vector<Job> jobs;
   for (const char* mu1 : {"0.07", "0.1", "0.12"})
@@ -116,7 +116,7 @@ TEST(RunJobs, NumberAtOnceChangesNoResult) {
               RunResults(three.path() / "runs" / job.name).last_frame().V);
 }
 
-TEST(RunJobs, RefusesWhatCannotBegin) {
+TEST(RunJobs, RefusesJobsThatCannotStart) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(run({{"a", small_scene().text(), {"b"}}}, folder.path()), solver::InputError);
   EXPECT_THROW(run({{"a", small_scene().text(), {"b"}}, {"b", small_scene().text(), {"a"}}}, folder.path()),

@@ -149,7 +149,7 @@ TEST(Report, TestsWhetherTwoRunsDiffer) {
   EXPECT_THAT(page_of(folder, {"a"}), Not(HasSubstr("unpaired t-test")));
 }
 
-TEST(Report, TellsWhatIsMissingOrCutOff) {
+TEST(Report, ShowsWhatIsMissingOrTruncated) {
   const TemporaryFolder folder;
   write_run(folder / "a");
   fs::remove(folder / "a/summary.json");
@@ -163,7 +163,7 @@ TEST(Report, TellsWhatIsMissingOrCutOff) {
   EXPECT_THAT(page, HasSubstr("fields.h5 cannot be read"));
 }
 
-TEST(Report, RefusesWhatIsNoRun) {
+TEST(Report, RefusesAFolderWithoutARun) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "empty");
   write(folder / "broken/manifest.json", "{");

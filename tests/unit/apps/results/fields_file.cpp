@@ -74,7 +74,7 @@ TEST(FrameShape, GridPositionsAreBilinearInEachElement) {
   }
 }
 
-TEST(FieldsFile, GivesBackEachFrameToTheLastBit) {
+TEST(FieldsFile, FramesAreReadBackBitwiseIdentical) {
   const TemporaryFolder folder;
   const auto scene = scene_of(21, 31, true);
   write_frames(folder, scene, 3);
@@ -102,7 +102,7 @@ TEST(FieldsFile, GivesBackEachFrameToTheLastBit) {
 }
 
 // A run that goes on keeps the frames up to its checkpoint, whatever its file has become since.
-TEST(FieldsFile, GoesOnAfterTheFramesThatItKeeps) {
+TEST(FieldsFile, ResumesAfterTheFramesOfTheCheckpoint) {
   for (const bool deforms : {true, false}) {
     const TemporaryFolder folder;
     auto scene = scene_of(21, 31, deforms);

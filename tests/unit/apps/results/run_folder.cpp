@@ -146,7 +146,7 @@ TEST(RunFolder, TensionThatIsNotComputedLeavesItsCellsEmpty) {
   EXPECT_THAT(read_text(folder / "out/fields.xdmf"), testing::Not(HasSubstr("Ta")));
 }
 
-TEST(RunFolder, WhatIsNotKnownOfABeatIsEmpty) {
+TEST(RunFolder, UnknownValuesOfABeatAreEmpty) {
   const TemporaryFolder folder;
   RunFolder run(folder / "out", scene_of(11, false, false, false), false, true);
   run.beat({2, {.upstroke = 0.5, .period = 30, .apd = 21, .apd90 = 20.5, .di = 9.5}});
@@ -193,7 +193,7 @@ TEST(RunFolder, TakesAnEmptyFolder) {
   EXPECT_EQ(refusal(folder.path(), false), "");
 }
 
-TEST(RunFolder, SaysWhyAFolderCannotBeMade) {
+TEST(RunFolder, ReportsWhyAFolderCannotBeMade) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "text";
   EXPECT_THAT(refusal(folder / "file", false), HasSubstr("is a file"));
@@ -227,7 +227,7 @@ TEST(RunFolder, AFailedWriteNamesTheFileAndLeavesWholeRows) {
   EXPECT_THAT(read_text(folder / "out/area.csv"), HasSubstr("\n100,1,0.5,1.5\n"));
 }
 
-TEST(RunFolder, TheManifestTellsHowToRepeatTheRun) {
+TEST(RunFolder, TheManifestSaysHowToRepeatTheRun) {
   const TemporaryFolder folder;
   RunFolder run(folder / "out", scene_of(11, false, false, false), false, true);
   run.write_manifest({{"time", {{"dt", 0.02}}}});
@@ -339,7 +339,7 @@ TEST(Summary, HasNullWhereThereIsNothing) {
   EXPECT_THAT(json.dump(), testing::Not(HasSubstr("nan\"")));
 }
 
-TEST(Progress, TellsTimeRateAndWhatRemains) {
+TEST(Progress, ShowsTimeRateAndRemainingTime) {
   solver::Progress progress{100, 400, "run", 312.4e6, 1234, 2};
   EXPECT_EQ(progress_text(progress, 20, 10),
             " 25 %  t 100/400 t.u. (1000 ms)  ETA 1:00  312 Mcell-steps/s  Newton 1234  tips 2");

@@ -65,7 +65,7 @@ TEST(RunResults, ReadsFramesOfADeformedSheet) {
   EXPECT_THROW(run.frame(3), solver::InputError);
 }
 
-TEST(RunResults, TellsWhatIsMissing) {
+TEST(RunResults, ReportsWhatIsMissing) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(RunResults{folder.path()}, solver::InputError);
   write(folder / "summary.json", "{ \"t\": ");

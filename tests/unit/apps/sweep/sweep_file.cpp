@@ -154,7 +154,7 @@ TEST(RunId, DependsOnWhatTheResultsDependOn) {
     EXPECT_NE(id(changed), plain) << changed;
 }
 
-TEST(SweepFile, TellsEveryErrorAtItsPlaceAtOnce) {
+TEST(SweepFile, ReportsAllErrorsWithTheirPlaces) {
   const std::string text = refusal(
       "[[axis]]\nkey = \"excitation.mu\"\nvalues = [1]\n"              // lines 1 to 3
       "[[axis]]\nkey = \"tension.k_Ta\"\nmin = 3\nmax = 2\nnum = 5\n"  // 4 to 8
@@ -168,7 +168,7 @@ TEST(SweepFile, TellsEveryErrorAtItsPlaceAtOnce) {
   EXPECT_THAT(text, HasSubstr("test.toml:11:2: unknown key \"stp\"; did you mean \"stop\"?"));
 }
 
-TEST(SweepFile, NamesTheValueThatMakesNoScene) {
+TEST(SweepFile, NamesTheValueThatMakesAnInvalidScene) {
   const std::string text = refusal(
       "[[axis]]\nkey = \"excitation.mu1\"\nvalues = [0.1, -0.2, \"x\"]\n"
       "[[axis]]\nkey = \"excitation.a\"\nvalues = [0.1, 0.2]\n");
@@ -185,7 +185,7 @@ struct Wrong {
   const char *text, *message;
 };
 
-TEST(SweepFile, RefusesWhatIsWrong) {
+TEST(SweepFile, RefusesInvalidFiles) {
   const char* mu1 = "[[axis]]\nkey = \"excitation.mu1\"\n";
   for (const auto& [text, message] : {
            Wrong{"", "a sweep needs one or more tables [[axis]]"},

@@ -77,7 +77,7 @@ TEST(Records, APartOfALineIsLeftOutAndCutByTheNextWriter) {
   }
 }
 
-TEST(Records, EveryFlippedBitIsSeen) {
+TEST(Records, EveryFlippedBitIsFound) {
   const std::string a = record_line(record("a")), b = record_line(record("b"));
   for (std::size_t at = 0; at + 1 < b.size(); ++at) {
     const RecordsFolder folder;
@@ -94,7 +94,7 @@ TEST(Records, EveryFlippedBitIsSeen) {
   }
 }
 
-TEST(Records, ForeignAndNewerLinesAreTold) {
+TEST(Records, ForeignAndNewerLinesAreReported) {
   const RecordsFolder folder;
   folder.write("hello\n\n{\"check\":\"0123456789abcdef\",\"schema\":1}\n" + record_line({{"some", "thing"}}) +
                record_line(record("new", "end", git_hash, sweep_schema + 1)) + record_line(record("a")) +
@@ -110,7 +110,7 @@ TEST(Records, ForeignAndNewerLinesAreTold) {
 }
 
 // A success before a failure, this revision before another, then the later.
-TEST(Records, TheBestOfSeveralOfARun) {
+TEST(Records, TheBestOfDuplicateRecordsIsUsed) {
   const RecordsFolder folder;
   folder.write(record_line(record("a", "failed")) + record_line(record("a", "breakup", "old")) +
                    record_line(record("b", "death")) + record_line(record("b", "end", "old")),
@@ -122,7 +122,7 @@ TEST(Records, TheBestOfSeveralOfARun) {
   EXPECT_EQ(records.by_id.at("b")["outcome"], "breakup");
 }
 
-TEST(RecordFile, TellsThatItWasRemoved) {
+TEST(RecordFile, ReportsThatItWasRemoved) {
   const RecordsFolder folder;
   RecordFile file(folder.file());
   file.append(record("a"));
@@ -135,7 +135,7 @@ TEST(RecordFile, TellsThatItWasRemoved) {
   }
 }
 
-TEST(ShardLock, TellsItsOwnerAndEndsWithIt) {
+TEST(ShardLock, NamesItsOwnerAndEndsWithIt) {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "shard.lock";
   EXPECT_EQ(ShardLock::owner_of(path), "");

@@ -85,7 +85,7 @@ TEST(ErrorTargets, AreMetByTheCheapest) {
   EXPECT_FALSE(nearest_to(candidates, parse_targets({"tip=1"})));
 }
 
-TEST(ErrorTargets, TellWhatIsWrong) {
+TEST(ErrorTargets, ReportWhatIsWrong) {
   const auto refusal = [](const std::string& text) {
     return refusal_of([&] { return parse_targets({text}); });
   };
@@ -106,7 +106,7 @@ TEST(Axes, AreReadWithValuesAndWithout) {
   EXPECT_THAT(parse_axes("dx", scene)[0].values, ElementsAre("0.3", "0.4", "0.5", "0.6", "0.75", "1", "1.2"));
 }
 
-TEST(Axes, TellWhatIsWrong) {
+TEST(Axes, ReportWhatIsWrong) {
   const auto refusal = [](std::string_view text, const solver::Scene& scene) {
     return refusal_of([&] { return parse_axes(text, scene); });
   };
@@ -156,7 +156,7 @@ TEST(References, HaveDtWithTheSquareOfDxAndTheIntervalWithDx) {
 }
 
 // The reference is the same whatever --set gives of the dials.
-TEST(References, NameWhatTheirPresetGives) {
+TEST(References, DoNotDependOnOverrides) {
   constexpr const char* scene = "[grid]\nn = 61\n[mechanics]\n";
   std::vector<std::string> overrides{"accuracy.precision=float32", "mechanics.tolerance=1e-3"};
   const auto own = reference_overrides(elastic_scene(), 2);
@@ -252,7 +252,7 @@ TEST(References, OfABreakUpIntoChaosAreItsMeanTime) {
   EXPECT_NEAR(error.uncertainty, std::hypot(1, 2), 1e-9);
 }
 
-TEST(References, WithoutABreakUpTellOfOneThatASettingHasAlone) {
+TEST(References, ReportABreakUpOfASettingAlone) {
   const std::vector levels(3, breaking_up({}, {1, 0}));
   const Reference reference = make_reference({1, 2, 3}, levels, {});
   EXPECT_FALSE(errors_of(std::vector{breaking_up({}, {})}, reference).contains("breakup"));

@@ -245,7 +245,7 @@ TEST(PhaseSingularity, NoiseIsTheReferences) {
   expect_reference<double>(50, 70, V, rate, 300);
 }
 
-TEST(PhaseSingularity, MembersAreToldApart) {
+TEST(PhaseSingularity, MembersAreSeparate) {
   Values V[2], rate[2];
   for (unsigned m = 0; m < 2; ++m) {
     V[m] = test::smooth_random_field(31, 45, 70 + m);
@@ -268,7 +268,7 @@ TEST(PhaseSingularity, MembersAreToldApart) {
   EXPECT_EQ(n, both.tips.size());
 }
 
-TEST(PhaseSingularity, WhatFindsNoRoomIsCounted) {
+TEST(PhaseSingularity, TipsBeyondTheCapacityAreCounted) {
   const Values V = test::random_field(50 * 70, 0, 1, 5), rate = test::random_field(50 * 70, -1, 1, 6);
   const auto all = find<double>(50, 70, {V}, {rate}), few = find<double>(50, 70, {V}, {rate}, 3);
   EXPECT_EQ(few.count, all.count);

@@ -172,7 +172,7 @@ TEST_P(Step, Float32IsTheReferenceToItsRounding) {
   expect_reference<float>({.absolute = 2e-6, .relative = 4e-7});
 }
 
-TEST_P(Step, MembersDoNotSeeOneAnother) {
+TEST_P(Step, MembersAreIndependent) {
   expect_members_as_alone<double>();
   expect_members_as_alone<float>();
 }
@@ -210,7 +210,7 @@ Values rate_everywhere(const Sheet& sheet, const Rate& rate) {
   return test::to_values(result);
 }
 
-TEST_P(Step, RateIsWhatTheStepAdds) {
+TEST_P(Step, RateIsTheIncrementOfAStep) {
   if (kind.scheme != Scheme::euler) GTEST_SKIP() << "an explicit Euler step alone adds dt times the rate";
   const Member member = random_member(sheet, 41);
   const Values next = stepped<double>(kind, sheet, {member}).front().V;

@@ -19,21 +19,21 @@ void watch(
   }
 }
 
-TEST(BreakupWatch, OneSpiralThatStaysHasNeither) {
+TEST(BreakupWatch, OneSpiralHasNoBreakupAndNoDeath) {
   BreakupWatch w(0);
   watch(w, 100, [](double) { return 1; });
   EXPECT_FALSE(w.breakup());
   EXPECT_FALSE(w.death());
 }
 
-TEST(BreakupWatch, IsTheFirstTimeOfALastingExcess) {
+TEST(BreakupWatch, BreakupIsTheFirstTimeOfALastingExcess) {
   BreakupWatch w(0);
   watch(w, 60, [](double t) { return t < 30 ? 1 : 3; });
   ASSERT_TRUE(w.breakup());
   EXPECT_NEAR(*w.breakup(), 30, 1e-9);
 }
 
-TEST(BreakupWatch, MustLast) {
+TEST(BreakupWatch, ExcessMustLast) {
   const auto after_excess = [](double duration) {
     BreakupWatch w(0);
     watch(w, 60, [=](double t) { return t >= 30 && t < 30 + duration ? 3 : 1; });
@@ -45,7 +45,7 @@ TEST(BreakupWatch, MustLast) {
   EXPECT_NEAR(*after_excess(2.2), 30, 1e-9);
 }
 
-TEST(BreakupWatch, AnInterruptedExcessBeginsAnew) {
+TEST(BreakupWatch, AnInterruptedExcessStartsAnew) {
   BreakupWatch w(0);
   watch(w, 60, [](double t) { return t >= 30 && !(t >= 31.6 && t < 31.8) ? 2 : 1; });
   ASSERT_TRUE(w.breakup());
@@ -63,7 +63,7 @@ TEST(BreakupWatch, ExcessIsOverTheTipsOfTheStart) {
   EXPECT_NEAR(*from_none.breakup(), 40, 1e-9);
 }
 
-TEST(BreakupWatch, RawDataAreCountedOnceTheyHaveSettled) {
+TEST(BreakupWatch, RawDataCountOnlyAfterSettling) {
   const auto tips = [](double t) { return t < 4.9 ? 300 : t < 50 ? 2 : 3; };
   BreakupWatch w(BreakupWatch::settling_time);
   watch(w, 100, tips);
@@ -71,7 +71,7 @@ TEST(BreakupWatch, RawDataAreCountedOnceTheyHaveSettled) {
   EXPECT_NEAR(*w.breakup(), 50, 1e-9);
 }
 
-TEST(BreakupWatch, TheFirstBreakupIsKept) {
+TEST(BreakupWatch, LaterExcessesDoNotReplaceTheFirst) {
   BreakupWatch w(0);
   watch(w, 100, [](double t) { return t >= 20 && t < 30 ? 2 : t > 40 ? 9 : 1; });
   EXPECT_NEAR(*w.breakup(), 20, 1e-9);

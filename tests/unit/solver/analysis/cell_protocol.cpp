@@ -30,7 +30,7 @@ TEST(CellProtocol, ALevelThatIsNotReachedIsAFailure) {
   EXPECT_THROW(time_to_fall(decaying_cell(0.1), {.V = 1, .r = 0}, 0.5), NumericalFailure);
 }
 
-TEST(CellProtocol, CapacitanceSlowsThePotentialAlone) {
+TEST(CellProtocol, CapacitanceSlowsOnlyThePotential) {
   PacedCell cell = decaying_cell(1e-4);
   cell.excitation.C_m = 2;
   EXPECT_NEAR(time_to_fall(cell, {.V = 1, .r = 1}, 0.1), 2 * std::log(10.0), 2e-4);
@@ -99,7 +99,7 @@ TEST(CellProtocol, RestitutionWithSlowRecovery) {
   }
 }
 
-TEST(CellProtocol, LengthsThatAreNoProtocolAreRefused) {
+TEST(CellProtocol, InvalidLengthsAreRefused) {
   EXPECT_THROW(pace_cell({}, 0.001, 1, 1), InputError);
   EXPECT_THROW(pace_cell({}, 0.1, 1, 0.02), InputError) << "the pulse lasts 0.2";
   EXPECT_THROW(pace_cell({}, 30, 1, 0.001), InputError);

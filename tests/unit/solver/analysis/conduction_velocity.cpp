@@ -62,7 +62,7 @@ TEST(ConductionVelocity, AcrossBeatsAndMissingNodesThereIsNone) {
   EXPECT_NEAR(velocity[columns + 1], 1.5, 1e-9);
 }
 
-TEST(ConductionVelocity, OfARowAndOfStillness) {
+TEST(ConductionVelocity, OfASingleRowAndWithoutActivation) {
   const std::vector<double> row{0, 0.5, 1, 1.5};
   for (const double c : conduction_velocity(1, 4, dx, row)) EXPECT_NEAR(c, 1.2, 1e-12);
   const std::vector<double> at_once(4, 3.0);

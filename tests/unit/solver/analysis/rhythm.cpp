@@ -59,7 +59,7 @@ TEST(BeatRecorder, FiresAgainOnlyAfterRepolarisation) {
   EXPECT_NEAR(meter.period().mean, (6 + 0.4 / 0.9) - 0.5, 1e-14);
 }
 
-TEST(BeatRecorder, AnExcitedStartIsNoUpstroke) {
+TEST(BeatRecorder, AnExcitedStartIsNotAnUpstroke) {
   BeatRecorder meter(1, 0);
   add_trace(meter, {1, 0, 1, 0, 1});
   EXPECT_EQ(meter.period().n, 1);
@@ -114,7 +114,7 @@ std::vector<Beat> beats_of(const SinePulses& pulses, double t_end) {
   return finished(recorder);
 }
 
-TEST(BeatRecorder, TellsTheDurationsOfKnownPulses) {
+TEST(BeatRecorder, MeasuresTheDurationsOfKnownPulses) {
   const SinePulses pulses{40.01, {30, 17, 22}, {1, 0.9, 0.7}};
   const auto beats = beats_of(pulses, 10 * 40.01);
   ASSERT_EQ(beats.size(), 10);
@@ -160,7 +160,7 @@ TEST(BeatRecorder, AmplitudeIsFromTheLowestVoltageBefore) {
   EXPECT_TRUE(std::isnan(beats[2].apd)) << "which has not ended";
 }
 
-TEST(BeatRecorder, BeatsComeWithTheirProbe) {
+TEST(BeatRecorder, EachBeatNamesItsProbe) {
   BeatRecorder recorder(2, 0);
   double t = 0;
   for (const double V : {0.0, 1.0, 0.0, 1.0}) recorder.add(t++, std::array{0.0, V});

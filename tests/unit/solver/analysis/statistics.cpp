@@ -65,7 +65,7 @@ TEST(IntegratedCorrelation, OfEqualSamplesIsUnknown) {
   EXPECT_FALSE(integrated_correlation({}));
 }
 
-TEST(SeriesStatistics, CountWhatTheSeriesIsWorth) {
+TEST(SeriesStatistics, GiveTheEffectiveSampleSize) {
   const auto s = series_statistics(autoregressive(0.9, 100000, 3));
   EXPECT_EQ(s.n, 100000);
   EXPECT_NEAR(s.sd, 1 / std::sqrt(1 - 0.81), 0.05);
@@ -116,7 +116,7 @@ TEST(TTest, OfTooFewOrEqualSamplesIsNone) {
 }
 
 // Two series of the same mean: a test at the 5 % level may find a difference in 5 % of them.
-TEST(TTest, OnlyTheOneThatKnowsTheCorrelationKeepsItsLevel) {
+TEST(TTest, OnlyTheOneWithCorrelationHasItsNominalLevel) {
   constexpr int pairs = 300;
   int student = 0, welch = 0;
   for (unsigned k = 0; k < pairs; ++k) {

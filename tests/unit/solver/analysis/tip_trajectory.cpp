@@ -154,7 +154,7 @@ TEST(TipTrajectory, OneThatVanishesInTheMiddleEndsAlone) {
 }
 
 // Two of the same charge are no pair; nor is one of them linked to one of the other charge.
-TEST(TipTrajectory, ChargeIsKept) {
+TEST(TipTrajectory, ChargeIsConstant) {
   const auto all = follow(30, [](double t) {
     const int charge = t < 10 ? 1 : -1;
     return std::vector<Tip>{{30, 30, charge}, {31, 30, charge}};
@@ -163,7 +163,7 @@ TEST(TipTrajectory, ChargeIsKept) {
   for (const auto& one : all) EXPECT_TRUE(one.ended == TipEvent::alone || one.born == TipEvent::alone);
 }
 
-TEST(TipTrajectory, APairIsBornAndEntersFromTheBoundaryAreTold) {
+TEST(TipTrajectory, BirthsInPairsAndAtTheBoundaryAreDistinguished) {
   const auto all = follow(40, [](double t) {
     std::vector<Tip> tips{on_circle(15, 15, t)};
     if (t > 10) {

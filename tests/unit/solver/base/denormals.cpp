@@ -22,7 +22,7 @@ bool is_denormal(double value) {
   return (bits & exponent) == 0 && (bits & mantissa) != 0;
 }
 
-TEST(Denormals, AreToldFromZeroByTheirBits) {
+TEST(Denormals, AreDistinguishedFromZeroByTheirBits) {
   EXPECT_TRUE(is_denormal(std::numeric_limits<double>::denorm_min()));
   EXPECT_TRUE(is_denormal(-std::numeric_limits<double>::denorm_min()));
   EXPECT_FALSE(is_denormal(std::numeric_limits<double>::min()));

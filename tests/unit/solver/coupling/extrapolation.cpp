@@ -78,7 +78,7 @@ TEST(SolvedNodes, FollowAsManySolvesAsAreKnownAndKept) {
   EXPECT_EQ(solved(q).last()(3, 1), q[3]);
 }
 
-TEST(SolvedNodes, ThatDoNotMoveStayToTheBit) {
+TEST(SolvedNodes, ThatDoNotMoveAreBitwiseUnchanged) {
   EXPECT_EQ(corner_at(solved({1 / 3.0, 1.1, 1.1, 1.1}), 0.3), 1.1);
 }
 
@@ -90,7 +90,7 @@ TEST(SolvedNodes, TurnNoCorner) {
   EXPECT_EQ(corner_at(solved({1.2, 0.7}), 0.5), 0.7) << "line: 0.45";
 }
 
-TEST(SolvedNodes, TellWhetherOneHasMoved) {
+TEST(SolvedNodes, ReportWhetherOneHasMoved) {
   SolvedNodes nodes(one_element, 2);
   EXPECT_TRUE(nodes.empty());
   EXPECT_TRUE(nodes.add(0, kite(1)));

@@ -44,7 +44,7 @@ TEST(StimulusSchedule, PulseLastsItsStepsWhateverTheRounding) {
   expect_pulses(steps_on(pulses(0.7, 33.3, 1, 300), 300 * 3330 + 70, 0.01), 70, 3330, 100, 300);
 }
 
-TEST(StimulusSchedule, PeriodsThatAreNoMultipleOfAStepKeepTime) {
+TEST(StimulusSchedule, PeriodsThatAreNotMultiplesOfAStepDoNotDrift) {
   // Pulse m begins at the first step at or after m times 1.37.
   const auto on = steps_on(pulses(0, 1.37, 0.02, 1000), 70000);
   ASSERT_EQ(on.size(), 1000U);

@@ -131,7 +131,7 @@ TEST(Newton, StartsWithTheFactorOfTheLastMinimum) {
 }
 
 // The factor of a maximum leads uphill: it is not followed.
-TEST(Newton, AFactorThatLeadsUphillIsLeft) {
+TEST(Newton, AFactorThatLeadsUphillIsNotUsed) {
   Toy toy{.energy = [](double x) { return (x - 3) * (x - 3); },
           .slope = [](double x) { return 2 * (x - 3); },
           .curvature = [](double) { return 2; }};

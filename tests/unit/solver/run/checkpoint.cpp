@@ -50,7 +50,7 @@ std::vector<std::byte> bytes_of(const StateWriter& writer) {
   return bytes;
 }
 
-TEST(Archive, PutsBackWhatWasTakenDown) {
+TEST(Archive, ReadsBackWhatWasWritten) {
   Whole saved;
   saved.step = 42;
   saved.part = {{}, std::nullopt};
@@ -131,7 +131,7 @@ class Checkpoint : public testing::Test {
   }
 };
 
-TEST_F(Checkpoint, HoldsWhatWasKept) {
+TEST_F(Checkpoint, HoldsWhatWasSaved) {
   keep_two();
   std::vector<std::string> refused;
   const auto found = find_checkpoint(folder.path(), refused);
@@ -144,7 +144,7 @@ TEST_F(Checkpoint, HoldsWhatWasKept) {
   EXPECT_EQ(step_in_state(*found), 2);
 }
 
-TEST_F(Checkpoint, TheLastTwoStay) {
+TEST_F(Checkpoint, TheLastTwoRemain) {
   CheckpointKeeper keeper(folder.path(), "the run");
   for (std::int64_t step = 1; step <= 5; ++step) keep(keeper, step);
   std::vector<std::string> refused;
@@ -181,7 +181,7 @@ TEST_F(Checkpoint, EveryFlippedBitIsFound) {
   EXPECT_EQ(newest(), file);
 }
 
-TEST_F(Checkpoint, EveryCutIsFound) {
+TEST_F(Checkpoint, EveryTruncationIsFound) {
   keep_two();
   const auto file = newest();
   const std::string sound = test::read_text(file);
@@ -194,7 +194,7 @@ TEST_F(Checkpoint, EveryCutIsFound) {
   expect_refused(file, "1 bytes stand after its end");
 }
 
-TEST_F(Checkpoint, WhatIsNoneOfOursIsTold) {
+TEST_F(Checkpoint, OtherFilesAreReported) {
   keep_two();
   const auto file = newest();
   const std::string sound = test::read_text(file);
@@ -210,7 +210,7 @@ TEST_F(Checkpoint, WhatIsNoneOfOursIsTold) {
   expect_refused(file, "byte order");
 }
 
-TEST_F(Checkpoint, ThatCannotBeWrittenLeavesThoseBefore) {
+TEST_F(Checkpoint, AFailedWriteLeavesEarlierOnes) {
   keep_two();
   std::vector<std::string> refused;
   const auto before = find_checkpoint(folder.path(), refused);

@@ -16,7 +16,7 @@ using View = Kokkos::View<double*, Kokkos::HostSpace>;
 
 int heard_by_tool = 0;
 
-TEST(MemoryWatch, TellsTheMostBytesThatTheProjectsViewsHaveAtOnce) {
+TEST(MemoryWatch, ReportsTheLargestTotalOfTheProjectsViews) {
   const View before("myowave::test::before", 1000);
   std::optional<View> older;
   older.emplace("myowave::test::older", 50);
@@ -36,7 +36,7 @@ TEST(MemoryWatch, TellsTheMostBytesThatTheProjectsViewsHaveAtOnce) {
   EXPECT_EQ(most[0].bytes, 120 * sizeof(double));
 }
 
-TEST(MemoryWatch, AToolThatIsLoadedHearsOfEverything) {
+TEST(MemoryWatch, ALoadedToolStillGetsAllEvents) {
   namespace tools = Kokkos::Tools::Experimental;
   const auto before = tools::get_callbacks();
   tools::set_allocate_data_callback(
@@ -52,7 +52,7 @@ TEST(MemoryWatch, AToolThatIsLoadedHearsOfEverything) {
   tools::set_callbacks(before);
 }
 
-TEST(DeviceMemory, WhatDoesNotFitIsRefused) {
+TEST(DeviceMemory, ASceneThatDoesNotFitIsRefused) {
   Scene scene;
   scene.name = "large";
   scene.grid = {1001, 1001, 0.6};

@@ -64,7 +64,7 @@ TEST(BandedLdlt, FactorsAgainWithOtherValues) {
   for (const double value : found) EXPECT_NEAR(value, 1, 1e-13);
 }
 
-TEST(BandedLdlt, TellsIndefiniteFromFailed) {
+TEST(BandedLdlt, DistinguishesIndefiniteFromFailed) {
   // [4 1 0; 1 -3 -1; 0 -1 2] and a matrix of zeros
   BandedLdlt factor(std::vector<int>{0, 1, 3, 5}, std::vector<int>{0, 0, 1, 1, 2});
   EXPECT_EQ(factor.factorize(std::vector<double>{4, 1, -3, -1, 2}), Factorization::indefinite);

@@ -28,7 +28,7 @@ TEST_P(DirectSolverBy, SolvesAHandCase) {
   EXPECT_NEAR(x[2], 3, 1e-15);
 }
 
-TEST_P(DirectSolverBy, TellsAnIndefiniteMatrixAndRecovers) {
+TEST_P(DirectSolverBy, ReportsAnIndefiniteMatrixAndRecovers) {
   DirectSolver solver(row_begin, column, GetParam());
   EXPECT_EQ(solver.factorize(std::vector<double>{4, 1, -3, -1, 2}), Factorization::indefinite);
   std::vector<double> y(3);
