@@ -1,5 +1,5 @@
 # cmake -DCHECK=<CheckLayers.cmake> -DWORK=<scratch folder> -P check_layers_cases.cmake: each rule of
-# the layers rejects what it is there for and lets its neighbours pass.
+# the layers rejects what it forbids and accepts similar code.
 cmake_minimum_required(VERSION 3.25)
 
 function(check path line output_result status_result)

@@ -1,6 +1,5 @@
 # cmake -DDOXYGEN=<doxygen> -DDOXYFILE=<that of the target docs> -DSOURCE=<project> -DHTML=<where it writes>
-# -P documentation.cmake: the documentation comes without a warning, and the headers' comments are in it, each where
-# it belongs.
+# -P documentation.cmake: doxygen gives no warning, and the headers' comments are on the right pages.
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE ${HTML})
@@ -27,7 +26,7 @@ function(tells name sentence)
   endif()
 endfunction()
 
-# Nor is there anything that a comment inside of a function says.
+# Comments inside functions are not on a page.
 function(does_not_tell name sentence)
   read_page(${name} text)
   string(FIND "${text}" "${sentence}" position)

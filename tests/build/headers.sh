@@ -17,6 +17,6 @@ compile_alone() {
     { echo "does not compile alone: $header"; return 1; }
 }
 export -f compile_alone
-# nproc heeds the number of threads that a test computes with.
+# nproc respects OMP_NUM_THREADS, which ./dev test sets.
 cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
 printf '%s\0' "$@" | xargs -0 -n 1 -P "$cores" bash -c 'compile_alone "$@"' headers "${compiler[@]}"

@@ -1,5 +1,5 @@
 # cmake -DCHECK=<kernel_resources.sh> -DWORK=<scratch folder> -P kernel_resources_cases.cmake: the check
-# passes a step that lives in registers and fails one that does not, or a log without any.
+# passes a step without stack and spills, and fails one with them, or a log without any step.
 cmake_minimum_required(VERSION 3.25)
 
 set(step_name "_ZN6Kokkos4Impl33cuda_parallel_launch_local_memoryINS0_11ParallelForIN7myowave6tissue14MonodomainStepINS_4CudaENS4_21ConservativeDiffusionIdNS_9CudaSpaceEEENS4_15MonodomainModelINS3_4cell13AlievPanfilovIdEENSB_13ActiveTensionIdEEEEEENS_10TeamPolicyIJS6_EEES6_EEEEvT_")
@@ -10,7 +10,7 @@ string(REPLACE "33cuda_parallel_launch" "32hip_parallel_launch" hip_name "${step
 string(REPLACE "4Cuda" "3HIP" hip_name "${hip_name}")
 string(REPLACE "9CudaSpace" "8HIPSpace" hip_name "${hip_name}")
 
-# A kernel as ptxas -v tells of it, and as clang's remarks do.
+# A kernel in the output of ptxas -v, and in clang's remarks.
 function(ptxas result name registers stack stores loads)
   set(${result} "ptxas info    : Compiling entry function '${name}' for 'sm_90'
 ptxas info    : Function properties for ${name}
@@ -53,7 +53,7 @@ expect(1 "FAILED: ${step}: 136 B stack, 0 spill B" "${good}${stack}")
 ptxas(tiled ${tiled_name} 255 0 4 0)
 expect(1 "FAILED: tissue::TiledStep<" "${good}${tiled}")
 
-# Other kernels are told, not judged; they do not stand in for the step.
+# Other kernels are listed and not judged; they do not count as the step.
 ptxas(other ${other_name} 64 136 4 4)
 expect(0 "64      136        8  tissue::OtherStep<" "${good}${other}")
 expect(1 "FAILED: no kernel of the excitation step" "${other}")
@@ -61,7 +61,7 @@ ptxas(kokkos ${kokkos_name} 10 0 0 0)
 expect(1 "FAILED: no kernel of the excitation step" "${kokkos}")
 expect(1 "FAILED: no kernel of the excitation step" "")
 
-# Scalar registers spill to lanes of vector registers, which is no fault.
+# Scalar registers spill to lanes of vector registers, which is accepted.
 remarks(good_hip ${hip_name} 74 0 False 19 0)
 expect(0 "a.cpp
   registers  stack B  spilled  AGPRs  SGPRs  spilled  waves  kernel

@@ -1,5 +1,5 @@
 # cmake -DWAY=installed|subdirectory -DSOURCE=.. -DBUILD=.. -DWORK=.. -DOPTIONS=.. -P outside.cmake
-# Builds and runs the program of outside/ in either of the two ways that others use the libraries.
+# Builds and runs the program of outside/ with the libraries installed or as a subdirectory.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(status)
@@ -18,7 +18,7 @@ else()
   list(APPEND configure -DMYOWAVE_SOURCE=${SOURCE})
 endif()
 run(${configure})
-# Our warnings and code generation are ours alone.
+# Our warnings and code generation flags are not passed to the program.
 file(READ ${WORK}/build/compile_commands.json commands)
 string(REGEX MATCH "\"command\": \"[^\n]*outside/main.cpp" command "${commands}")
 if(NOT command OR command MATCHES "-W(all|extra|shadow)|-march|-mtune|-fno-math-errno")

@@ -1,4 +1,4 @@
-"""packaging.py SOURCE: what cmake/packaging says of libraries, versions, options and paths is what the build says."""
+"""packaging.py SOURCE: libraries, versions, options and paths in cmake/packaging agree with the build."""
 import ast
 import re
 import sys
@@ -52,7 +52,7 @@ for row, package in libraries.values():
     expect(package in dependencies, f"package.py does not depend on {package}")
     expect((dependencies.get(package) or "-") == least.get(row),
            f"{package}: package.py wants {dependencies.get(package)}, cmake/README.md {least.get(row)}")
-# What CMake asks of the versions that it finds.
+# The versions that CMake requires.
 asked = dict(re.findall(r"at_least\((\w+) ([0-9.]+) ", text("cmake/Dependencies.cmake")))
 asked.update(re.findall(r"(cairo)>=([0-9.]+)", text("cmake/Dependencies.cmake")))
 asked.update(re.findall(r"find_package\((Kokkos) ([0-9.]+)", text("cmake/Kokkos.cmake")))
@@ -81,7 +81,7 @@ for path in environments:
     expect((path.parent / sources).resolve() == source.resolve(), f"{path}: {sources} is not the project")
     expect((path.parent / repository / "repo.yaml").is_file(), f"{path}: no repository in {repository}")
 
-# What the container file copies is what it is sent.
+# The container file copies exactly what .dockerignore lets through.
 copied = re.findall(r"^COPY (?!--from)(.*) \S+$", text("cmake/packaging/Containerfile"), re.M)
 copied = sorted(path for paths in copied for path in paths.split())
 sent = sorted(line[1:] for line in text(".dockerignore").splitlines() if line.startswith("!"))

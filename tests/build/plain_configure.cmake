@@ -1,5 +1,5 @@
 # cmake -DSOURCE=.. -DWORK=.. -DKOKKOS=<prefix> -DBACKEND=.. -P plain_configure.cmake
-# With nothing but the place of Kokkos: what is said to be configured, and a source that includes Kokkos.
+# Configures with only the path of Kokkos given: checks the summary, and compiles a source that includes Kokkos.
 function(run)
   execute_process(COMMAND ${CMAKE_COMMAND} ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(status)
@@ -14,5 +14,5 @@ run(-G Ninja -S ${SOURCE} -B ${WORK} -DKokkos_ROOT=${KOKKOS})
 if(NOT output MATCHES "excitation on  ${BACKEND}\n" OR NOT output MATCHES "build          Release: libraries, apps, tests, bench\n")
   message(FATAL_ERROR "not the summary of a plain build on ${BACKEND}: ${output}")
 endif()
-# No more than an object: what is linked wants the libc that Debian's Kokkos is built for, which ./dev brings.
+# Only an object: linking needs the libc of Debian's Kokkos, which ./dev provides.
 run(--build ${WORK} --target solver/CMakeFiles/myowave_solver.dir/device_memory.cpp.o)

@@ -1,5 +1,5 @@
 # cmake -DSOURCE=.. -DWORK=.. -DKOKKOS=<prefix> -P refusals.cmake
-# What a user is told whose Kokkos is not the one that the preset is for, or whose libraries are too old.
+# Messages for a Kokkos that does not match the preset, and for libraries that are too old.
 set(failed "")
 function(expect what words)
   file(REMOVE_RECURSE ${WORK})
@@ -12,7 +12,7 @@ function(expect what words)
   endif()
 endfunction()
 
-# A package that is found, has that version and sets what the further arguments say.
+# A package that is found, has that version and sets the further arguments.
 function(write_package folder name version compatible)
   file(WRITE ${folder}/lib/cmake/${name}/${name}Config.cmake ${ARGN})
   file(WRITE ${folder}/lib/cmake/${name}/${name}ConfigVersion.cmake

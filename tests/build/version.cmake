@@ -1,5 +1,5 @@
 # cmake -DSOURCE=<project> -DVERSION=<of project()> -P version.cmake: CITATION.cff and the newest heading of
-# CHANGELOG.md name the version of CMakeLists.txt; the heading may also be that of what is not released.
+# CHANGELOG.md name the version of CMakeLists.txt; the heading may also be Unreleased.
 cmake_minimum_required(VERSION 3.25)
 
 file(STRINGS ${SOURCE}/CITATION.cff line REGEX "^version:")

@@ -1,6 +1,6 @@
-// Order of the diffusion term's solution on a deformed sheet: V_t = div grad V in the deformed
-// coordinates against exact solutions, elements and grid refined together, dt ~ dx^2. Of the
-// solution, not of the operator: at the lines between elements the latter's own error is larger.
+// Observed order of diffusion on a deformed sheet: V_t = div grad V in deformed coordinates against exact
+// solutions, elements and grid refined together, dt ~ dx^2. This is the order of the solution. The error of
+// the operator itself is larger at the lines between elements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,7 +91,7 @@ double error_of(MetricForm form, const Map& map, const Solution& u, double t_end
   return std::sqrt(error / norm);
 }
 
-// Errors with 16, 32 and 64 cells along a side, and the orders between them.
+// Errors with 16, 32 and 64 cells along a side, and the observed orders.
 struct Refinement {
   double coarse, middle, fine;
   double first_order() const { return std::log2(coarse / middle); }
@@ -134,7 +134,7 @@ std::array<double, 2> quadrilateral(double X1, double X2) {
   return {1.2 * X1 + 0.3 * X2 + 0.25 * X1 * X2, -0.2 * X1 + 0.9 * X2 + 0.2 * X1 * X2};
 }
 
-// A spreading Gauss function, so narrow that nothing of it reaches an edge.
+// A spreading Gaussian, so narrow that it does not reach an edge.
 double spot(double x1, double x2, double t) {
   const auto [c1, c2] = quadrilateral(0.47, 0.52);
   const double width2 = 0.012 + 4 * t;
@@ -162,7 +162,7 @@ TEST(Convergence, ExpandedFormIsOfSecondOrderOnABilinearMap) {
   EXPECT_LT(errors.fine, 2e-3);
 }
 
-// x_,11 and x_,22 stand in the jumps of F between elements, which this form does not see.
+// x_,11 and x_,22 are in the jumps of F between elements, which this form ignores.
 TEST(Convergence, ExpandedFormDoesNotConvergeOnAGeneralMap) {
   const Refinement errors = refine(MetricForm::expanded, bent, mode, 0.02);
   EXPECT_LT(std::abs(errors.second_order()), 0.2);

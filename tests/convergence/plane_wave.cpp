@@ -1,5 +1,5 @@
-// Schemes for Eqs 22a, b on a plane wave, as plain loops: how far off they are for how many looks at the
-// neighbours. `--gtest_filter=*Table*` prints what solver/studies/split_step.md shows.
+// Schemes for Eqs 22a, b on a plane wave, as plain loops: error against the number of stencil evaluations.
+// `--gtest_filter=*Table*` prints the table of the documentation.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,8 +19,7 @@ using Values = std::vector<double>;
 
 const cell::AlievPanfilov<double> model;
 
-// The velocity of the plane wave in the limit of small steps (split at dx = 0.15 and 0.1; see
-// solver/studies/split_step.md).
+// The velocity of the plane wave in the limit of small steps (split at dx = 0.15 and 0.1; solver/README.md).
 constexpr double true_velocity = 1.589;
 
 // A wave along the rows of a grid, or along its diagonal, where lines of equal V are half a diagonal apart.
@@ -167,7 +166,7 @@ struct Scheme {
   std::string name;
   Step step;
   Points points;
-  int looks;  // at the neighbours in a step
+  int looks;  // stencil evaluations in a step
 };
 
 const Scheme eulers{"Euler", euler, Points::five, 1}, splits{"split", split, Points::nine, 1},
@@ -212,12 +211,12 @@ TEST(PlaneWave, SplitStepsAreCloserThanEulersInEveryDirection) {
     EXPECT_LT(std::abs(error(splits, 0.2, 1.15, along)), 0.01);
     EXPECT_GT(std::abs(error(eulers, 0.02, 0.6, along)), 0.02);
   }
-  // Five points leave dx^2 / 6 V_xxyy, which is felt along a diagonal.
+  // Five points leave an error dx^2 / 6 V_xxyy, which acts along a diagonal.
   EXPECT_GT(error(five_point_split, 0.06, 0.6, Along::diagonal), 0.008);
 }
 
-// Twice the grid spacing and four times the step: 16 times the error of fourth order, less what the finest
-// itself is off by.
+// Twice the grid spacing and four times the step: 16 times the error at fourth order, less the error of the
+// finest grid.
 TEST(PlaneWave, SplitStepIsOfFourthOrderInTheSpacing) {
   const auto velocity = [](double dx) {
     return wave(split, {dx, Along::row, Points::nine}, dx * dx / 6).velocity;

@@ -1,5 +1,5 @@
-// Scenes that must be refused, each with the message it must get; through the library for the table
-// and through the executable for what the user meets.
+// Scenes that must be refused, each with its message: the table through the library, and what a user sees
+// through the executable.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -262,7 +262,7 @@ TEST(bad_scenes, one_wrong_value_does_not_draw_others_along) {
             "bad.toml:2:5: grid.n must be an integer or [rows, columns], each 2 to 10000000, not 1");
 }
 
-// Steps that are certainly unstable: told from the numbers of a scene, before anything runs.
+// Steps that are certainly unstable are refused from the numbers of a scene, before anything runs.
 TEST(bad_scenes, unstable_steps_are_refused_with_their_bound) {
   const auto past = [](const char* dt, const char* bound, const char* proposed, const char* where = "") {
     return fmt::format(

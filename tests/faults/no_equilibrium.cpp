@@ -121,7 +121,7 @@ TEST(NoEquilibrium, WhatWasTriedAndTheRangeOfTheTensionAreNamed) {
             HasSubstr("c2 = 6"), HasSubstr("Newton iterations"), HasSubstr("ramp"), HasSubstr("min J")));
 }
 
-// What cannot be reached: a tolerance below rounding. The nodes stay where the last solution was.
+// A tolerance below rounding cannot be reached. The nodes stay those of the last solution.
 TEST(NoEquilibrium, NodesKeepTheLastSolution) {
   MechanicsSettings settings;
   const Space space;

@@ -1,4 +1,4 @@
-// Random scenes with something wrong in them, by construction: each is refused with its place, through the
+// Random scenes with an error by construction. Each is refused with the place of the error, through the
 // library and through the executable. MYOWAVE_SEEDS = "17" or "1001-4000" runs other seeds than the default
 // ones.
 #include <fmt/format.h>
@@ -128,7 +128,7 @@ Named any_key(Draw& draw) {
   return draw.one_of(keys);
 }
 
-// A table of an array needs what is required before anything else can be wrong with it.
+// A table of an array needs its required keys, so that the error under test is the only one.
 void complete(SceneText& scene, const std::string& section) {
   if (scene.find(section) != nullptr) return;
   if (section == "stimulus") scene.set(section, "amplitude", "1");
@@ -423,7 +423,7 @@ void expect_refusal(const std::string& message, const std::string& place) {
   } else {
     EXPECT_THAT("\n" + message, HasSubstr("\n" + place));
   }
-  EXPECT_LT(message.size(), 20000U) << "a message that nobody reads";
+  EXPECT_LT(message.size(), 20000U) << "the message is too long to read";
 }
 
 TEST(RandomBadScenes, AreRefusedAtTheirPlace) {

@@ -1,5 +1,5 @@
-// The command stopped by signals, killed and damaged: what it leaves is gone on with, and what comes of it is
-// what a run leaves that nothing has happened to.
+// The command stopped by signals, killed, or with damaged files: it can be resumed, and its results are those
+// of an uninterrupted run.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -60,7 +60,7 @@ std::string summary_without_measurements(const fs::path& path) {
   return summary.dump(1);
 }
 
-// Of each file of a run's folder what is the same in every run of the scene.
+// The part of each file of a run's folder that is the same in every run of the scene.
 std::map<std::string, std::string> results(const fs::path& folder) {
   std::map<std::string, std::string> content;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -93,7 +93,7 @@ void expect_same(const std::map<std::string, std::string>& actual,
   for (const auto& [name, content] : actual) EXPECT_TRUE(expected.contains(name)) << name << " is too many";
 }
 
-// What a run needs some tenths of a second for, with every output.
+// A run of some tenths of a second, with every output.
 const std::string sheet = R"(
 [grid]
 n = 41
@@ -114,8 +114,8 @@ maps = true
 )";
 const std::string contracting = sheet + "element_areas = true\n[mechanics]\ninterval = 35\n";
 
-// In memory where there is such a place: what a process has written outlives it there as on a disk, and
-// nothing waits for the disk.
+// In a memory file system if there is one: written data outlive the process as on a disk, without waiting for
+// the disk.
 const bool in_memory = access("/dev/shm", W_OK) == 0 && setenv("TMPDIR", "/dev/shm", 1) == 0;
 
 class ResumedCommand : public testing::Test {
@@ -145,7 +145,7 @@ class ResumedCommand : public testing::Test {
     return out / "checkpoints" / fmt::format("checkpoint_{}", turn);
   }
 
-  // Stopped when the second checkpoint is there. The newest is the one of the stop.
+  // Stopped when the second checkpoint exists. The newest is the one of the stop.
   void stop_on_the_way() const {
     Process first = begin();
     ASSERT_TRUE(first.waits_until_there(checkpoint("odd")));
@@ -160,7 +160,7 @@ TEST_F(ResumedCommand, StoppedBySignalsIsTheUninterruptedRun) {
     const auto expected = undisturbed();
     EXPECT_GT(expected.size(), 25U);
     fs::remove_all(out);
-    // A signal each time that so many more bytes of tips are there.
+    // A signal each time the file of tips has grown by this many bytes.
     std::uintmax_t bytes = 100;
     int parts = 0;
     for (int status = stopped_on_request; status != 0; ++parts, bytes += 60) {
@@ -183,7 +183,7 @@ TEST_F(ResumedCommand, StoppedBySignalsIsTheUninterruptedRun) {
 
 TEST_F(ResumedCommand, IsStoppedAtOnceByASecondInterrupt) {
   write_scene(sheet);
-  // One that does not end by itself in the time of the test, and looks up seldom.
+  // A run that does not end by itself during the test, and seldom checks for signals.
   Process run(
       {"run", scene.string(), "--out", out.string(), "--quiet", "--until", "1e6", "--set", "grid.n=401"},
       told);
@@ -195,8 +195,8 @@ TEST_F(ResumedCommand, IsStoppedAtOnceByASecondInterrupt) {
   EXPECT_TRUE(status == -SIGINT || status == stopped_on_request) << status;
 }
 
-// Kills at random instants of a run with a checkpoint every few milliseconds. What is killed before its first
-// checkpoint begins again; all others go on.
+// Kills at random times of a run with a checkpoint every few milliseconds. A run killed before its first
+// checkpoint starts again; all others resume.
 TEST_F(ResumedCommand, KilledAtAnyInstantLosesNothing) {
   constexpr int kills = 25;  // of each scene
   Uniform random(7);
@@ -230,8 +230,8 @@ TEST_F(ResumedCommand, KilledAtAnyInstantLosesNothing) {
   }
 }
 
-// Files that cannot grow to the size of a checkpoint, as on a full disk: a run ends all the same, and tells
-// of each checkpoint that it has not; one that is stopped has to tell that it cannot be gone on with.
+// Files that cannot grow to the size of a checkpoint, as on a full disk. The run still ends, and reports each
+// checkpoint that it could not write. A stopped run has to report that it cannot be resumed.
 TEST_F(ResumedCommand, WithoutRoomForACheckpointContinuesWithoutIt) {
   write_scene(contracting);
   std::vector<std::string> settings;

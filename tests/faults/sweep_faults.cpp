@@ -1,5 +1,5 @@
-// A sweep that is killed, stopped, short of disk or robbed of its folder: no record that was told is lost,
-// the errors say what to do, and the table in the end is that of a sweep that nothing has happened to.
+// A sweep that is killed, stopped, out of disk space or without its folder: no reported record is lost, the
+// errors say what to do, and the final table is that of an uninterrupted sweep.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ class SweepFaults : public testing::Test {
     return run_myowave(arguments(path(name), std::move(further)));
   }
 
-  // By run, without what depends on when, where and how fast.
+  // By run, without times, places and speeds.
   static json reproducible(const std::string& out) {
     const Outcome outcome = run_myowave({"sweep", "table", out, "--json"});
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
@@ -89,7 +89,7 @@ class SweepFaults : public testing::Test {
     return rows;
   }
 
-  // What a sweep gives that nothing happens to; done once.
+  // Results of an uninterrupted sweep; computed once.
   const json& undisturbed() {
     static const json rows = [&] {
       EXPECT_EQ(sweep("undisturbed").status, 0);
@@ -127,7 +127,8 @@ class SweepFaults : public testing::Test {
     EXPECT_EQ(reproducible(path(name)), undisturbed());
   }
 
-  // Kills a sweep again and again until it has been killed so often; each begins anew when it is done.
+  // Kills sweeps at random times until there were `kills` kills; a finished sweep is started again from
+  // nothing.
   void survives_kills(int kills) {
     std::mt19937_64 engine(2004);
     const auto uniform = [&] { return double(engine() >> 11) * 0x1p-53; };
@@ -166,10 +167,10 @@ TEST_F(SweepFaults, StoppedBySignals) {
   for (const int signal : {SIGTERM, SIGUSR1, SIGINT}) {
     SCOPED_TRACE(signal);
     const std::string name = fmt::format("stopped_{}", signal);
-    // Each time something is done before it is stopped, so that it ends.
+    // Each time some work is done before the stop, so that the sweep ends.
     int stops = 0;
     for (int status = stopped_on_request; status == stopped_on_request; ++stops) {
-      // It watches for signals before it takes the lock.
+      // It handles signals before it takes the lock.
       const fs::path lock = folder_ / name / "locks/shard_1_of_1.lock";
       fs::remove(lock);
       Process process(arguments(path(name), {"--quiet"}), folder_ / "errors");
@@ -285,7 +286,7 @@ TEST_F(SweepFaults, AFolderRemovedMeanwhileIsReported) {
     fs::remove_all(folder_ / "removed", busy);
   }
   const int status = process.wait();
-  if (status == 0) GTEST_SKIP() << "it was done before its folder was removed";
+  if (status == 0) GTEST_SKIP() << "it finished before its folder was removed";
   EXPECT_EQ(status, 1);
   EXPECT_THAT(process.errors(), HasSubstr(path("removed")));
   expect_whole("removed");
@@ -315,7 +316,7 @@ TEST_F(SweepFaults, DamagedRecordsAreReportedAndRunAgain) {
 TEST_F(SweepFaults, DamagedCheckpointsAreReportedAndNotUsed) {
   const auto checkpoints = [&] {
     std::vector<fs::path> files;
-    std::error_code gone;  // those of members that end meanwhile
+    std::error_code gone;  // members may finish meanwhile and remove theirs
     for (fs::recursive_directory_iterator entry(folder_ / "hurt/checkpoints", gone), end;
          !gone && entry != end; entry.increment(gone))
       if (entry->is_regular_file(gone)) files.push_back(entry->path());
@@ -341,7 +342,7 @@ TEST_F(SweepFaults, DamagedCheckpointsAreReportedAndNotUsed) {
   EXPECT_EQ(reproducible(path("hurt")), undisturbed());
 }
 
-// A clock that is set back or forth changes nothing, because nothing but texts for people reads it.
+// Setting the clock changes no result, because only texts for people use it.
 TEST(Clock, IsReadForPeopleOnly) {
   const std::regex clock("system_clock|gettimeofday|std::time\\(|CLOCK_REALTIME|last_write_time");
   std::set<std::string> found;

@@ -1,6 +1,6 @@
-// Checkpoints: any bytes are a checkpoint or are refused with a line, also where the checksums are right;
-// and any bytes are a state or a StateMismatch.
-#include "solver/run/checkpoint.hpp"
+// Checkpoints: any bytes are a checkpoint or are refused with one line, even with right checksums; and any
+// bytes are a state or a StateMismatch.
+#include "solver/checkpoint.hpp"
 
 #include <xxhash.h>
 
@@ -17,14 +17,14 @@ namespace {
 
 using namespace myowave;
 
-constexpr std::size_t header_size = 80, header_checksum = 72;  // bytes, solver/run/checkpoint.cpp
+constexpr std::size_t header_size = 80, header_checksum = 72;  // bytes, solver/checkpoint.cpp
 
 void put_checksum(std::vector<std::byte>& bytes, std::size_t begin, std::size_t end) {
   const std::uint64_t sum = XXH3_64bits(bytes.data() + begin, end - begin);
   std::memcpy(bytes.data() + end, &sum, sizeof sum);
 }
 
-// Else nothing behind the checksums is ever reached.
+// Without right checksums the fuzzer never gets past them.
 std::vector<std::byte> with_checksums(std::vector<std::byte> bytes) {
   if (bytes.size() < header_size + sizeof(std::uint64_t)) return bytes;
   put_checksum(bytes, 0, header_checksum);

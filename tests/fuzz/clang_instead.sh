@@ -1,5 +1,5 @@
 #!/bin/sh
-# clang_instead.sh COMPILER CLANG COMMAND...: runs CMake's command line with Clang in the compiler's place.
+# clang_instead.sh COMPILER CLANG COMMAND...: runs CMake's command line with Clang instead of the compiler.
 compiler=$1 clang=$2
 until [ "$3" = "$compiler" ]; do shift; done
 shift 3

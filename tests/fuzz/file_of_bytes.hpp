@@ -12,7 +12,7 @@
 
 namespace myowave::test {
 
-// A folder of this process alone; the system clears it away.
+// A folder for this process only; the system removes it.
 inline std::filesystem::path folder_in_memory() {
   const bool there = std::filesystem::is_directory("/dev/shm");
   std::string name = std::string(there ? "/dev/shm" : "/tmp") + "/myowave_fuzz_XXXXXX";

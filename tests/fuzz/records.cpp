@@ -1,4 +1,4 @@
-// Records of a sweep: any line is a record or is refused with a line, also where its checksum is right.
+// Records of a sweep: any line is a record or is refused with one line, even with a right checksum.
 #include <cstddef>
 #include <cstdint>
 
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const auto folder = myowave::test::folder_in_memory();
   std::filesystem::create_directory(folder / "records");
   read(folder, std::as_bytes(std::span(data, size)));
-  // A record's text with the checksum that it needs to be looked at.
+  // A record's text with a right checksum.
   const auto record = nlohmann::ordered_json::parse(data, data + size, nullptr, /* allow_exceptions */ false);
   if (!record.is_object() || record.empty()) return 0;
   const std::string line = myowave::apps::record_line(record);

@@ -1,5 +1,5 @@
-// A scene on every execution space of the build, and on the default one with a single thread: host spaces
-// agree to the bit, a device to the bounds below.
+// A scene on every execution space of the build, and on the default one with a single thread. Host spaces are
+// bitwise identical; a device is within the bounds below.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ using solver::Scene;
 
 constexpr int interval = 40, intervals = 8;
 
-// What a device's fused multiply-adds and order of sums may change in 6.4 t.u., of V, r and nodes of the
-// order 1 to 10: rounding, grown by the front's motion.
+// Largest difference of V, r and nodes (order 1 to 10) after 6.4 t.u. by a device's fused multiply-adds and
+// order of sums: rounding, amplified by the motion of the front.
 constexpr double device_bound = 1e-9, device_bound_float = 1e-3;
 
 struct Outcome {
@@ -106,7 +106,7 @@ TEST_P(Backends, Agree) {
   const auto all = single ? outcomes_of<float>(scene) : outcomes_of<double>(scene);
 
   const Outcome& first = all.front();
-  EXPECT_GE(first.tips.size(), 1U) << "the scene has a spiral";
+  EXPECT_GE(first.tips.size(), 1U) << "the scene should have a spiral";
   for (const Outcome& other : all) {
     SCOPED_TRACE(other.space + " against " + first.space);
     const double bound = other.on_host ? 0 : single ? device_bound_float : device_bound;

@@ -1,5 +1,5 @@
-// The data stay where the excitation runs: a step allocates, copies and waits for nothing, and a solve
-// of the mechanics moves the tension at the Gauss points to the host and the nodes back.
+// Data stay where the excitation runs. A step allocates and copies nothing and does not fence. A solve of the
+// mechanics moves the tension at the Gauss points to the host and the nodes back.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using Space = Kokkos::DefaultExecutionSpace;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// A View and the bytes of it that went between host and device.
+// A View and the number of its bytes copied between host and device.
 struct Movement {
   std::string label;
   std::uint64_t bytes;
@@ -55,15 +55,15 @@ void record_copy(Kokkos::Tools::SpaceHandle to, const char* to_label, const void
   if (crosses && !fills && bytes > 0) recording->movements.push_back({label_of_view(to_label), bytes});
 }
 
-// A fence that waits for nothing: of the recording itself, before each callback, or, on a host, of the
-// plain loop that copies V at the probes.
+// Fences that wait for nothing: of the recording itself, before each callback, or, on a host, of the plain
+// loop that copies V at the probes.
 bool is_for_show(const std::string& label) {
   constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Space::memory_space>::accessible;
   return label.ends_with("Kokkos Profile Tool Fence") ||
          (on_host && label == "myowave::observe::record_probes");
 }
 
-// The Threads backend waits for each kernel itself, and makes its scratch memory anew for larger teams.
+// The Threads backend waits for each kernel itself, and reallocates its scratch memory for larger teams.
 bool is_of_threads([[maybe_unused]] const std::string& label) {
 #ifdef KOKKOS_ENABLE_THREADS
   return label.starts_with("Kokkos::ThreadsInternal::") ||
@@ -78,7 +78,7 @@ bool waits_for_all_instances(std::uint32_t device) {
   return Kokkos::Tools::Experimental::identifier_from_devid(device).instance_id == all;
 }
 
-// What Kokkos does during an action.
+// Records what Kokkos does during an action.
 template <class Action>
 Recording record(const Action& action) {
   namespace tools = Kokkos::Tools::Experimental;
@@ -96,7 +96,7 @@ Recording record(const Action& action) {
   });
   tools::set_allocate_data_callback(
       [](Kokkos::Tools::SpaceHandle, const char* label, const void*, std::uint64_t) {
-        // What reductions on a device work in is Kokkos' own, and grows to the largest of them.
+        // The work space of reductions on a device belongs to Kokkos and grows to the largest reduction.
         if (!std::string(label).starts_with("Kokkos::Internal") && !is_of_threads(label))
           recording->allocations.emplace_back(label);
       });

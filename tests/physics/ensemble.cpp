@@ -1,5 +1,6 @@
-// A member of an ensemble has the bits that it has alone, whatever its company, order and number of threads.
-#include "solver/run/ensemble.hpp"
+// A member of an ensemble is bitwise identical to the run alone, for any other members, order and number of
+// threads.
+#include "solver/ensemble.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "solver/base/error.hpp"
-#include "solver/run/run.hpp"
+#include "solver/error.hpp"
+#include "solver/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"
 
@@ -79,7 +80,7 @@ void expect_equal(const Outcome& a, const Outcome& b) {
   }
 }
 
-// The test as a process with cores for several workers: what it says when it has failed.
+// Runs the test in a process with cores for several workers, and shows its output if it failed.
 void with_threads(int threads, const std::function<void()>& test) {
   if (Kokkos::DefaultExecutionSpace::name() != std::string("OpenMP"))
     GTEST_SKIP() << "the number of threads is not OpenMP's";

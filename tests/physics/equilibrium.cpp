@@ -1,5 +1,5 @@
-// Equilibria of non-uniform sheets: what must hold whatever the tension.
-#include "solver/mechanics/equilibrium.hpp"
+// Equilibria of non-uniform sheets: properties for any tension.
+#include "solver/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "kernels/elastic/assemble.hpp"
-#include "solver/mechanics/equibiaxial.hpp"
-#include "solver/mechanics/mesh.hpp"
-#include "solver/mechanics/sparse_system.hpp"
+#include "solver/equibiaxial.hpp"
+#include "solver/mesh.hpp"
+#include "solver/sparse_system.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {
@@ -113,8 +113,8 @@ TEST(EquilibriumOfFronts, HeldComponentsCarryNoForce) {
     equilibrium.solve(space, Ta, 0);
     const Forces found = forces(paper_sheet, settings, equilibrium.nodes(), Ta);
     EXPECT_LT(found.free, 1e-12 * 10 * paper_sheet.h);
-    // The follower load has neither a resultant nor a moment on the deformed sheet; nor has the
-    // dead one a resultant, but it may turn the sheet against the pin.
+    // The follower load has no resultant and no moment on the deformed sheet. The dead load has no resultant,
+    // but it may turn the sheet against the pin.
     if (load == Load::follower) {
       EXPECT_LT(found.held, 1e-9);
     }

@@ -1,4 +1,4 @@
-// What a run does where its steps are unstable: each outcome occurs, none passes silently.
+// Runs with unstable steps: each outcome occurs, and each has an error or a warning.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
   return std::sqrt(difference / norm);
 }
 
-// Steps that no run would take: the sheet asks nobody. The state is checked every 2 t.u.
+// Takes steps that a run would refuse. Checks the state every 2 t.u.
 struct Unguarded {
   std::optional<std::string> problem;
   double t = 0, largest_noise = 0, largest_V = 0;  // noise and V from t = 2 on
@@ -144,7 +144,7 @@ TEST(Instability, ContractedSheetsAreValid) {
     const Outcome outcome = run(scene);
     EXPECT_EQ(outcome.failure, "");
     EXPECT_LT(outcome.summary.mechanics.min_J, 0.35);
-    EXPECT_LE(outcome.summary.largest_substeps, 3) << "what the metric asks for, and no more";
+    EXPECT_LE(outcome.summary.largest_substeps, 3) << "only as many as the metric needs";
   }
 }
 
@@ -180,8 +180,8 @@ TEST(Instability, TheRangeOfACleanRun) {
   EXPECT_EQ(solver::clean_range(scene, {1, 2, {0, 4}, {0, 0}, {0, 0}}).max_V, 4);
 }
 
-// A current of 3 holds V at 1.26, where the reaction is 2.3 times as steep as at V = 1: dt = 0.06, stable
-// without it, is not with it. The bound of the rest of the sheet does not tell; what comes of it does.
+// A current of 3 holds V at 1.26, where the reaction is 2.3 times as steep as at V = 1: dt = 0.06 is stable
+// without it and unstable with it. The bound checked before a run does not show this; the state does.
 Scene strong_current(double dt) {
   Scene scene = spiral(41, dt, 12);
   scene.excitation.b = 0.5;  // r stays above 0 at that V
@@ -194,7 +194,7 @@ TEST(Instability, InstabilityBelowTheBoundStopsTheRun) {
   EXPECT_THAT(stopped.failure, AllOf(HasSubstr("t = "), HasSubstr("node (row "),
                                      HasSubstr("Use a smaller time.dt"), HasSubstr("on_unstable")));
   EXPECT_GT(stopped.summary.steps, 0);
-  EXPECT_LE(stopped.summary.steps, 150) << "found within 100 steps of the current's begin";
+  EXPECT_LE(stopped.summary.steps, 150) << "found within 100 steps of the current's start";
 }
 
 TEST(Instability, SubstepsHealIt) {
@@ -259,7 +259,7 @@ TEST(Instability, WithoutInstabilitySubstepIsBitwiseIdentical) {
   }
 }
 
-// r = -0.1 in a sheet at rest is below -eps mu2 / mu1 = -0.025: the equations themselves run away.
+// r = -0.1 in a sheet at rest is below -eps mu2 / mu1 = -0.025: the exact solution runs away too.
 TEST(Instability, InstabilityOfTheEquationsEndsTheRun) {
   Scene scene;
   scene.grid = {11, 11, 0.6};
@@ -271,7 +271,7 @@ TEST(Instability, InstabilityOfTheEquationsEndsTheRun) {
   const Outcome outcome = run(scene, state);
   EXPECT_THAT(outcome.failure, AllOf(HasSubstr("no clean step was found in up to 64 parts"),
                                      HasSubstr("r is outside of -0.15 to inf")));
-  EXPECT_GT(outcome.summary.steps, 50) << "it does not begin there";
+  EXPECT_GT(outcome.summary.steps, 50) << "it does not start there";
 }
 
 TEST(Instability, StrongTensionWarns) {

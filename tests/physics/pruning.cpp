@@ -1,5 +1,5 @@
-// What a scene does not require is left out, and what is left is the same to the bit. The plan says what is
-// left out and what the rest needs.
+// Parts that a scene does not need are not allocated or computed; the other results are bitwise identical.
+// The plan lists what is left out and the memory of the rest.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ solver::InitialState tense_front(const Scene& scene) {
   return state;
 }
 
-// Labels of what Kokkos allocates and launches, and the most bytes of the project's Views at once.
+// Labels of Kokkos' allocations and launches, and the largest total of the project's Views in bytes.
 struct Recording {
   std::vector<std::string> allocations, kernels;
   std::uint64_t bytes = 0, most_bytes = 0;
@@ -139,7 +139,7 @@ TEST(Pruning, AContractingSheetAndItsPreconditionHaveTension) {
   EXPECT_FALSE(has_tension(solver::stages_of(scene).front()));
 }
 
-// Tension that stays as it is, that stays zero, and that the sheet does not feel.
+// Tension that is constant, that is zero, and that does not load the sheet.
 struct StillCase {
   const char* name;
   void (*change)(Scene&);
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
              (std::get<2>(one.param) == solver::MetricTime::held ? "" : "_quadratic");
     });
 
-// The steps of a wave that begins later: solves are left out until Ta moves, then none is.
+// A wave that starts later: solves are left out until Ta changes, and none after that.
 TEST(Pruning, SolvesStartWhenTheTensionChanges) {
   Scene scene = deforming_front();
   scene.initial.type = solver::InitialSettings::Type::rest;
@@ -221,7 +221,7 @@ TEST(Pruning, UnneededPartsAreNotAllocatedOrComputed) {
             launches(deforming, "myowave::transfer::tension_to_gauss"));
 }
 
-// More tips than there is room for: a noisy sheet.
+// A noisy sheet has more tips than the initial capacity.
 TEST(Pruning, MemoryForTipsGrowsWithTheirNumber) {
   Scene scene = front(81);
   scene.time.t_end = 0;

@@ -1,4 +1,4 @@
-// What holds of random scenes by the form of the equations alone: symmetries and conserved sums.
+// Properties of random scenes that follow from the form of the equations: symmetries and conserved sums.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 using solver::InitialState;
 using solver::Scene;
 
-// The scene and its state, moved by one of the symmetries of the rectangle.
+// The scene and its state, transformed by one of the symmetries of the rectangle.
 struct Turned {
   bool transposed, left_right, up_down;
 
@@ -145,8 +145,8 @@ std::vector<double> hill_of_tension(const solver::GridSettings& grid, Draw& draw
   return Ta;
 }
 
-// The stencil adds opposite neighbours first, so that a rigid sheet knows no direction at all; and what does
-// not load it does not act on V and r.
+// The stencil adds opposite neighbours first, so a rigid sheet is exactly symmetric. Tension that does not
+// load the sheet does not change V and r.
 TEST(RandomInvariants, TurnedOrWithoutTensionAreBitwiseIdentical) {
   std::uint64_t seed = 0;
   for_random_scenes(100, random_scene, [&](const std::string& text) {
@@ -170,8 +170,8 @@ TEST(RandomInvariants, TurnedOrWithoutTensionAreBitwiseIdentical) {
   });
 }
 
-// k = 0 and r = 0 leave V_t = diffusion + I_s. While the metric is held, the sum of M_i V_i grows by what the
-// stimuli bring and by nothing else, and without them the sum of M_i V_i^2 falls.
+// k = 0 and r = 0 leave V_t = diffusion + I_s. While the metric is constant, the sum of M_i V_i changes only
+// by the stimuli, and without stimuli the sum of M_i V_i^2 falls.
 TEST(RandomInvariants, DiffusionAloneKeepsItsSumAndLosesItsSquares) {
   std::uint64_t seed = 0;
   int deformed = 0;

@@ -1,5 +1,5 @@
-// Random scenes inside the ranges of the schema: every run has an orderly end, and what holds of the
-// equations holds of the result. MYOWAVE_SEEDS = "17" or "1001-4000" runs other seeds than the default ones.
+// Random scenes within the ranges of the schema: every run ends properly, and its result has the properties
+// of the equations. MYOWAVE_SEEDS = "17" or "1001-4000" runs other seeds than the default ones.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ void expect_sound_state(const Scene& scene, const Result& result) {
   EXPECT_TRUE(watch.finite);
   EXPECT_TRUE(all_finite(result.state.V) && all_finite(result.state.r) && all_finite(result.state.Ta));
   for (const auto& sample : watch.probe_samples) EXPECT_TRUE(all_finite(sample.values));
-  constexpr double cube_overflows = 1e100;  // the winding is told by products of three values
+  constexpr double cube_overflows = 1e100;  // the winding number needs products of three values
   if (watch.V_range.size() < cube_overflows) expect_sound_tips(scene, watch);
   EXPECT_GT(watch.smallest_J, 0);
   for (const auto& area : watch.areas) {
@@ -100,7 +100,7 @@ TEST(RandomScenes, EndProperlyWithinTheBoundsOfTheEquations) {
     if (box->V.size() < 2) ++tight;
   });
   if (ends[End::done] > 100) {
-    EXPECT_GE(4 * tight, ends[End::done]) << "bounds that say little";
+    EXPECT_GE(4 * tight, ends[End::done]) << "the bounds are too loose";
   }
   fmt::print("{} runs done, {} failed with a message; V has a bound in {}, below 2 in {}\n", ends[End::done],
              ends[End::failed], bounded, tight);

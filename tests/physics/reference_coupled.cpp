@@ -1,5 +1,4 @@
-// The product against the plain serial reference, step for step, on a sheet on which a broken wave
-// front moves and pulls.
+// The product against the plain serial reference, step by step, on a sheet that a broken wave front deforms.
 #include "tests/support/reference_coupled.hpp"
 
 #include <gtest/gtest.h>

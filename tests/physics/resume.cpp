@@ -1,4 +1,4 @@
-// A run that is stopped and goes on from its checkpoint is the run that was never stopped, to the bit.
+// A run that is stopped and resumed from its checkpoint is bitwise identical to one that was never stopped.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 namespace myowave {
 namespace {
 
-// Everything that leaves a run, as one text: numbers to the bit.
+// All output of a run as one text, with exact numbers.
 class Transcript : public solver::OutputSink {
  public:
   void fields(const solver::Frame& frame) override {
@@ -51,7 +51,7 @@ class Transcript : public solver::OutputSink {
   void warning(const std::string& text) override { add("warning {}", text); }
   bool wants_fields() const override { return true; }
 
-  // What came until a checkpoint is all that was said when it was kept; what came after is said again.
+  // Output up to a checkpoint is complete when the checkpoint is saved; later output is repeated.
   std::string mark() override { return std::to_string(text_.size()); }
   void go_on_from(const std::string& mark) { text_.resize(std::stoul(mark)); }
 
@@ -124,7 +124,7 @@ std::string undisturbed(const solver::Scene& scene) {
   return told.text();
 }
 
-// Stopped after each `samples` samples and gone on with, by a keeper as a new process has it.
+// Stops after each `samples` samples and resumes with a new keeper, as a new process would.
 std::string in_parts(const solver::Scene& scene, int samples, int* parts = nullptr) {
   const test::TemporaryFolder folder;
   StoppingTranscript told;
@@ -224,7 +224,7 @@ INSTANTIATE_TEST_SUITE_P(
                          }}),
     [](const auto& one) { return one.param.name; });
 
-// Those of preconditions are kept where checkpoint_every asks for them: nothing is sampled then.
+// A precondition saves checkpoints if checkpoint_every is set. It is not sampled.
 TEST(ResumeOfAPrecondition, IsBitwiseARunThatWasNeverStopped) {
   solver::Scene scene = spiral(true);
   scene.initial.preconditions = {{.duration = 4, .contraction = false, .excitation = {}, .tension = {}},
@@ -232,7 +232,7 @@ TEST(ResumeOfAPrecondition, IsBitwiseARunThatWasNeverStopped) {
   const std::string whole = undisturbed(scene);
   scene.output.checkpoint_every = 1.3;
 
-  // Stops at what the run reports of its stage.
+  // Stops when the run reports its stage.
   struct InStage : Transcript {
     std::atomic<bool> stop = false;
     std::string stage;
@@ -259,7 +259,7 @@ TEST(ResumeOfAPrecondition, IsBitwiseARunThatWasNeverStopped) {
   }
 }
 
-// With checkpoint_every a run leaves its last two, from either of which it goes on.
+// With checkpoint_every a run leaves its last two checkpoints and can be resumed from either.
 TEST(Checkpoints, AreWrittenAtTheirIntervalAndTheLastTwoRemain) {
   solver::Scene scene = spiral(true);
   const std::string whole = undisturbed(scene);
@@ -327,7 +327,7 @@ TEST(Checkpoints, OfAStageThatTheSceneDoesNotHaveAreRefused) {
   EXPECT_THROW(solver::run(without, {}, told, summary, {.resume = &*found}), solver::StateMismatch);
 }
 
-// Any scene, stopped at each of its looks or only now and then.
+// Any scene, stopped at each sample or only at some.
 TEST(RandomScenes, StoppedAndResumedAreBitwiseIdentical) {
   int gone_on = 0;
   test::for_random_scenes(100, test::random_scene, [&](const std::string& text) {
@@ -351,7 +351,7 @@ TEST(RandomScenes, StoppedAndResumedAreBitwiseIdentical) {
   }
 }
 
-// Another number of threads goes on with the same bits.
+// A run resumed with another number of threads is bitwise identical.
 TEST(Checkpoints, ResumeWithAnotherNumberOfThreads) {
   if (Kokkos::DefaultExecutionSpace::name() != std::string("OpenMP"))
     GTEST_SKIP() << "the number of threads is not OpenMP's";

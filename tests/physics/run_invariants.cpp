@@ -1,4 +1,4 @@
-// What holds of every run, whatever it models.
+// Properties of every run, whatever it models.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -126,7 +126,7 @@ TEST(RunInvariants, Float32FollowsFloat64) {
     const test::RecordedRun rounded = test::recorded_run(scene);
     EXPECT_TRUE(all_close(rounded.state.V, exact.state.V, 61, {.absolute = 4e-6}));
     EXPECT_TRUE(all_close(rounded.state.r, exact.state.r, 61, {.absolute = 8e-6}));
-    // a node whose V crosses the tension's threshold a step apart is off by 1 - 0.1 times Ta dt
+    // a node whose V crosses the tension's threshold one step earlier or later is off by (1 - 0.1) Ta dt
     EXPECT_TRUE(all_close(rounded.state.Ta, exact.state.Ta, 61, {.absolute = 0.02}));
     EXPECT_TRUE(all_close(rounded.sink.nodes, exact.sink.nodes, 2, {.absolute = 1e-5}));
     EXPECT_GT(*std::max_element(exact.state.V.begin(), exact.state.V.end()), 0.5) << "activity has died";
@@ -144,7 +144,7 @@ TEST(RunInvariants, StepPastTheStabilityBoundIsRefused) {
   const auto message = message_of<solver::InputError>(scene, solver::make_initial_state(scene));
   EXPECT_THAT(message, HasSubstr("time.dt"));
   EXPECT_NEAR(number_after(message, "stability bound "), bound, 1e-7);
-  // what it proposes does
+  // the proposed step works
   scene.time.dt = number_after(message, "Set time.dt to ");
   EXPECT_GT(scene.time.dt, 0.95 * bound);
   EXPECT_EQ(test::recorded_run(scene).summary.steps, 20);
@@ -162,7 +162,7 @@ TEST(RunInvariants, StabilityBoundFollowsTheMedium) {
   EXPECT_DOUBLE_EQ(solver::largest_stable_dt(scene, 2), usual);
 }
 
-// A law "none" drops Ta and nothing else: the same bits of V and r, tile by tile and step by step.
+// The law "none" drops only Ta: V and r are bitwise identical, in tiles and in single steps.
 TEST(RunInvariants, WithoutTensionVAndRAreTheSame) {
   Scene scene = spiral(61);
   scene.time.t_end = 20;
@@ -207,7 +207,7 @@ TEST(RunInvariants, ContractionPastTheStabilityBoundStopsTheRun) {
   EXPECT_LT(bound, 0.06);
   EXPECT_NEAR(bound, 2 / (4 * trace / 0.36 + 7.2), 1e-6);
   EXPECT_GT(number_after(message, "smallest J "), 0);
-  // at the first solve that sees tension, and with a step that would have done there
+  // at the first solve with tension, and the message has a step that would work there
   EXPECT_NEAR(number_after(message, "t = "), 0.6, 1e-9);
   EXPECT_LT(dt, bound);
   EXPECT_GT(dt, 0.8 * bound);
@@ -230,7 +230,7 @@ TEST(RunInvariants, NonFiniteStartIsReportedAtOnce) {
   EXPECT_THAT(message, HasSubstr("row 7, column 11"));
 }
 
-// A current so large that V leaves in its one step what the equations allow, and blows up from there.
+// A current so large that one step takes V out of the range of the equations, where it blows up.
 solver::Stimulus lightning(double start) {
   solver::Stimulus s;
   s.start = start;

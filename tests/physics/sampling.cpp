@@ -1,4 +1,4 @@
-// What of a run is shown, and when.
+// Which samples a run gives, and when.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,14 +100,14 @@ TEST(Sampling, BeatsOfAPacedSheetFollowTheStimulus) {
     const auto& [probe, beat] = run.sink.beats[n];
     EXPECT_EQ(probe, n % 2);
     EXPECT_NEAR(beat.upstroke, 40 * static_cast<double>(n / 2) + 1, 0.5);
-    EXPECT_GT(beat.apd, beat.apd90) << "it begins earlier";
+    EXPECT_GT(beat.apd, beat.apd90) << "it starts earlier";
     if (n < 8) {
       EXPECT_NEAR(beat.di + beat.apd90, beat.period, 1e-12);
     }
   }
   EXPECT_EQ(run.summary.observables.period.n, 4);
   EXPECT_NEAR(run.summary.observables.period.mean, 40, 0.01);
-  EXPECT_EQ(run.summary.observables.apd90.n, 6) << "the last have ended, and nothing has begun after them";
+  EXPECT_EQ(run.summary.observables.apd90.n, 6) << "the last beats have ended and none follows";
 }
 
 // V = 1 on five columns of a cable of three rows.

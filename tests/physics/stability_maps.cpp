@@ -1,4 +1,4 @@
-// Where explicit steps are right, finite but wrong, or blow up, on sheets that are held deformed.
+// Explicit steps on sheets that are held deformed: where they are right, finite but wrong, or blow up.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,7 +131,7 @@ TEST_P(Bound, HoldsForTheConservativeForm) {
   }
 }
 
-// No run would gain much from a bound that is less strict.
+// A less strict bound would gain a run little.
 TEST_P(Bound, IsAtMostATenthTooStrict) {
   const auto sheet = sheet_of(MetricForm::conservative, Precision::float64, GetParam().cells, GetParam().x);
   const double bound = solver::stability_bounds(sheet).excited;
@@ -141,7 +141,7 @@ TEST_P(Bound, IsAtMostATenthTooStrict) {
 INSTANTIATE_TEST_SUITE_P(StabilityMaps, Bound, ::testing::ValuesIn(deformations),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// The watch of a run and the maps judge apart from one another.
+// The checks of a run and the outcomes of the maps are computed independently.
 TEST(StabilityMaps, TheChecksOfARunFindWrongStatesAndNoOthers) {
   const auto sheet = sheet_of(MetricForm::none, Precision::float64, 10, undeformed);
   for (const double dt : {0.02, 0.067}) EXPECT_FALSE(solver::try_steps(sheet, dt).told) << dt;
@@ -168,8 +168,8 @@ TEST(StabilityMaps, TheConservativeFormIsRightUpToTheBound) {
   EXPECT_EQ(admitted, 10);
 }
 
-// The bound is no bound of the expanded form where an element is nearly inverted: at a corner J of 0.08
-// half of it is too much. At 0.2 and above it is one.
+// The bound does not hold for the expanded form where an element is nearly inverted: at a corner J of 0.08
+// half of it is unstable. From J = 0.2 on it holds.
 TEST(StabilityMaps, TheExpandedFormIsRightUpToTheBoundWhereNoElementIsNearlyInverted) {
   bool broken = false;
   for (const auto& row : crumpled_map().rows) {

@@ -1,4 +1,4 @@
-// The mechanics far from the paper's values: every outcome of a solve occurs, and none is silent.
+// The mechanics far from the paper's values: every outcome of a solve occurs, and failures are reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Parameters at their ends and a million steps: a run is right, refused or stopped.
+// Parameters at the ends of their ranges, and a million steps: a run is right, refused or stopped.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,7 +118,7 @@ TEST(ParameterMap, NoDiffusionIntervalOneAndFloat32AreRight) {
   EXPECT_EQ(result.outcome, ParameterOutcome::right) << result.error << result.reason;
 }
 
-// Rounding alone: a hundred units of the last place at most after 10^6 steps.
+// Rounding errors only: at most a hundred units in the last place after 10^6 steps.
 TEST(MillionSteps, KeepTheSumOfADiffusingSheet) {
   EXPECT_NEAR(diffuse_on_held_sheet(Precision::float64, 9, 1'000'000).drift(), 0, 100 * DBL_EPSILON);
   EXPECT_NEAR(diffuse_on_held_sheet(Precision::float32, 9, 1'000'000).drift(), 0, 100 * FLT_EPSILON);

@@ -1,4 +1,4 @@
-// Runs that end at the look that establishes break-up or death.
+// Runs that end at the sample that finds break-up or death.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using test::recorded_run;
 
-// A wave from one edge, which leaves at the other.
+// A wave that starts at one edge and leaves at the other.
 Scene one_wave() {
   Scene scene;
   scene.grid = {11, 61, 0.6};
@@ -41,12 +41,12 @@ TEST(StopOn, DeathEndsTheRunAtTheSampleThatFindsIt) {
   EXPECT_EQ(*run.summary.observables.death_tu, death);
   EXPECT_EQ(run.summary.t, death);
   EXPECT_EQ(run.summary.steps, std::llround(death / scene.time.dt));
-  // Everything is shown there, as at t_end, and nothing after it.
+  // Everything is sampled there, as at t_end, and nothing later.
   EXPECT_EQ(run.sink.probe_samples.back().t, death);
   EXPECT_EQ(run.sink.tip_samples.back().t, death);
   EXPECT_EQ(run.sink.last_frame_t, death);
   EXPECT_EQ(run.sink.V, run.state.V);
-  // Until then it is the other run.
+  // Until then it equals the other run.
   for (std::size_t n = 0; n + 1 < run.sink.probe_samples.size(); ++n)
     EXPECT_EQ(run.sink.probe_samples[n].values, whole.sink.probe_samples[n].values);
 }
@@ -68,7 +68,7 @@ TEST(StopOn, AStateAsLongAsTheShortenedRunIsTheSame) {
   EXPECT_EQ(run.sink.areas.back().t, stopped.sink.areas.back().t);
 }
 
-// A stimulus to come is no death.
+// A sheet with a future stimulus is not dead.
 TEST(StopOn, AFutureStimulusIsAwaited) {
   Scene scene = one_wave();
   scene.time.stop_on = {true, true};

@@ -1,4 +1,4 @@
-// The number of threads changes no bit of a run.
+// A run is bitwise identical with any number of threads.
 #include <gtest/gtest.h>
 
 #include <Kokkos_Core.hpp>
@@ -14,7 +14,7 @@
 namespace myowave {
 namespace {
 
-// FNV-1a of the bits.
+// FNV-1a hash of the values' bits.
 std::uint64_t hash(std::initializer_list<const std::vector<double>*> fields) {
   std::uint64_t h = 0xcbf29ce484222325;
   for (const auto* field : fields)

@@ -1,4 +1,4 @@
-// Random valid scenes through the executable: exit status, files and what stands in them.
+// Random valid scenes through the executable: exit status, files and their content.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Every file that the scene asks for is there, and no table holds what is no number.
+// Every file of the scene's outputs exists, and tables contain only numbers.
 void expect_files(const solver::Scene& scene, const std::filesystem::path& out) {
   for (const char* name : {"tips.csv", "trajectories.csv", "sources.csv", "probes.csv", "area.csv"})
     EXPECT_THAT(read_text(out / name), Not(ContainsRegex("nan|inf|NaN"))) << name;

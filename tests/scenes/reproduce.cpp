@@ -1,4 +1,4 @@
-// Figures of the paper through the executable: what is in the folder, and the numbers that the pictures show.
+// Figures of the paper through the executable: the files, and the numbers in the pictures.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The shipped scenes of single spirals, each with a physical number of its own.
+// The shipped scenes of single spirals, each with a physical number.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The shipped scenes that are no single spiral, each with a physical number of its own.
+// The other shipped scenes, each with a physical number.
 #include <algorithm>
 
 #include "tests/support/scene_run.hpp"

@@ -1,5 +1,5 @@
-// Sweeps through the executable: each record is what the run alone gives, whatever the order, threads and
-// shards.
+// Sweeps through the executable: each record equals that of the run alone, for any order, number of threads
+// and shards.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ class Sweeps : public testing::Test {
     return json::parse(outcome.output);
   }
 
-  // Without what depends on when, where and how fast.
+  // Without times, places and speeds.
   json reproducible(const std::string& name) const {
     json rows = table(name)["rows"];
     for (json& row : rows)
@@ -252,7 +252,7 @@ TEST_F(Sweeps, TheLineForGnuParallelDoesAllShards) {
   EXPECT_EQ(reproducible("p"), reproducible("whole"));
   const std::string log = read_text(folder_ / "p/parallel.log");
   EXPECT_EQ(std::ranges::count(log, '\n'), 4) << log;
-  // Nothing is left to do.
+  // All runs are done.
   EXPECT_EQ(in_shell(line), 0);
   EXPECT_EQ(read_text(folder_ / "p/parallel.log"), log);
 }

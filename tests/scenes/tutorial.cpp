@@ -1,5 +1,5 @@
-// The tutorial as a reader follows it: each command of its blocks `sh`, in order; the blocks `text` are what
-// these say.
+// The tutorial as a reader follows it: each command of its blocks `sh`, in order; the blocks `text` are their
+// output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

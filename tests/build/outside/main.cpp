@@ -1,4 +1,4 @@
-// A sheet that contracts, and a kernel of the program's own on the state that the run leaves.
+// A contracting sheet, and a kernel of this program on the last state of the run.
 #include <Kokkos_Core.hpp>
 #include <cstdio>
 

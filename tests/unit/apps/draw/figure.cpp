@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// The middle of all pixels of a colour.
+// The mean position of all pixels of a colour.
 Point middle_of(const Picture& picture, Colour colour) {
   double x = 0, y = 0, n = 0;
   for (int row = 0; row < picture.height(); ++row)
@@ -129,7 +129,7 @@ TEST(Figure, OnLogarithmicAxesPowersOfTenAreEquallyFarApart) {
   const Point middle = middle_of(picture, palette[2]);
   EXPECT_NEAR(middle.x, 0.5 * (low.x + high.x), 0.6);
   EXPECT_NEAR(middle.y, 0.5 * (low.y + high.y), 0.6);
-  EXPECT_EQ(count_of(picture, palette[3]), 0) << "zero has no place";
+  EXPECT_EQ(count_of(picture, palette[3]), 0) << "zero is not on a logarithmic axis";
 }
 
 TEST(Figure, ARingIsOpenWhereAPointIsNot) {
@@ -145,7 +145,7 @@ TEST(Figure, ARingIsOpenWhereAPointIsNot) {
   const int x = int(middle.x), y = int(middle.y);
   EXPECT_EQ(point.at(x, y).red, palette[0].red);
   EXPECT_EQ(ring.at(x, y).red, 255);
-  // Along each way out of it there is its line.
+  // In every direction from its middle there is its line.
   for (const auto& [right, up] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     int darkest = 255;
     for (int n = 1; n < 8; ++n) darkest = std::min<int>(darkest, ring.at(x + n * right, y + n * up).red);

@@ -1,12 +1,12 @@
-// A field and a start on another grid of the same sheet.
-#include "apps/input/resample.hpp"
+// A field and an initial state on another grid of the same sheet.
+#include "apps/resample.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/input/initial_state.hpp"
+#include "apps/initial_state.hpp"
 
 namespace myowave::apps {
 namespace {

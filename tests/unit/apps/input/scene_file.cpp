@@ -1,5 +1,5 @@
-// What a scene file means, once it is right. What it may not say: tests/faults/bad_scenes.cpp.
-#include "apps/input/scene_file.hpp"
+// The meaning of valid scene files. Invalid ones: tests/faults/bad_scenes.cpp.
+#include "apps/scene_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/base/memory.hpp"
-#include "apps/input/schema.hpp"
-#include "solver/base/error.hpp"
-#include "solver/run/make_plan.hpp"
-#include "solver/run/run.hpp"
+#include "apps/memory.hpp"
+#include "apps/schema.hpp"
+#include "solver/error.hpp"
+#include "solver/make_plan.hpp"
+#include "solver/run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
@@ -139,7 +139,7 @@ region = {columns = [0, 2]}
   EXPECT_EQ(made.stimuli[1].shape, Shape::disc);
   EXPECT_EQ(made.stimuli[1].center, (std::array{30.0, 20.5}));
   EXPECT_EQ(made.stimuli[1].radius, 3);
-  EXPECT_EQ(made.stimuli[1].count, -1) << "a period without a count goes on";
+  EXPECT_EQ(made.stimuli[1].count, -1) << "a period without a count repeats without end";
   EXPECT_EQ(made.stimuli[2].shape, Shape::block);
   EXPECT_EQ(made.stimuli[2].columns, (std::array{0, 60}));
   EXPECT_EQ(made.stimuli[2].rows, (std::array{3, 5}));
@@ -174,7 +174,7 @@ TEST(scene_file, paths_are_relative_to_the_file_and_of_set_to_the_working_direct
   const test::TemporaryFolder temporary;
   const std::string folder = temporary.path().string();
   const std::string state = folder + "/state.h5";
-  std::ofstream(state) << "not looked into here";
+  std::ofstream(state) << "not read here";
   const std::string text = "[initial]\ntype = 'file'\nfile = 'state.h5'";
   EXPECT_EQ(parse_scene(text, folder + "/a.toml").initial.file, state);
   const std::string from_here = std::filesystem::relative(state).string();

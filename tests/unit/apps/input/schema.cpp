@@ -1,4 +1,4 @@
-// The schema table against what is made from it: every key is read, checked, described and shown.
+// The schema table against everything generated from it: every key is read, checked, described and shown.
 #include "apps/input/schema.hpp"
 
 #include <fmt/format.h>

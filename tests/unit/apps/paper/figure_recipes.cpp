@@ -1,5 +1,4 @@
-// The figures of the paper as recipes: every run is a valid scene that ends in time, and what is asked for is
-// found.
+// The recipes of the paper's figures: every run is a valid, stable scene, and figures are found by number.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// The scenes of all runs, by name; the states that they start from are there as files without content.
+// The scenes of all runs, by name. The states that they start from are empty files.
 class Scenes {
  public:
   explicit Scenes(Extent extent) {
@@ -60,7 +59,7 @@ TEST_P(Extents, RunsOfOneNameAreTheSame) {
     }
 }
 
-// Rigid and contracting runs that are compared differ in the mechanics alone.
+// Rigid and contracting runs that are compared differ only in the mechanics.
 TEST(FigureRecipes, PairsStartFromTheSameState) {
   const Scenes all(Extent::full);
   const auto& scenes = all.all();

@@ -1,15 +1,15 @@
-// Runs in processes of their own: what they leave, in which order, and what a failure does to the others.
-#include "apps/paper/run_jobs.hpp"
+// Runs in separate processes: their files, their order, and the effect of a failure on the others.
+#include "apps/run_jobs.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "apps/input/scene_file.hpp"
-#include "apps/results/run_results.hpp"
+#include "apps/run_results.hpp"
+#include "apps/scene_file.hpp"
 #include "myowave_version.hpp"
-#include "solver/base/error.hpp"
+#include "solver/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {
@@ -59,7 +59,7 @@ TEST(SceneText, SetsWhatIsNamedAndKeepsTheRest) {
   EXPECT_EQ(scene.stimuli[1].columns[1], 8);
 }
 
-// A run that goes on from the state of another is the same as one run through both times.
+// A run that starts from the last state of another equals one run over both times.
 TEST(RunJobs, StateOfOneRunStartsAnother) {
   const test::TemporaryFolder folder;
   const std::string whole = small_scene().set("time.t_end", "2.0").text();
@@ -90,7 +90,7 @@ TEST(RunJobs, FailureEndsOnlyThoseThatNeedIt) {
 }
 
 TEST(RunJobs, FinishedRunsAreReusedUntilTheirSceneChanges) {
-  if (git_dirty) GTEST_SKIP() << "a program with changes that are in no commit does every run again";
+  if (git_dirty) GTEST_SKIP() << "a program with uncommitted changes repeats every run";
   const test::TemporaryFolder folder;
   const std::string from_first =
       small_scene().set("initial", "{type = \"file\", file = \"../runs/first/fields.h5\"}").text();

@@ -101,7 +101,7 @@ TEST(FieldsFile, FramesAreReadBackBitwiseIdentical) {
   EXPECT_THAT(size, testing::ElementsAre(3, 21, 31, 2));
 }
 
-// A run that goes on keeps the frames up to its checkpoint, whatever its file has become since.
+// A resumed run keeps the frames up to its checkpoint, whatever happened to its file since.
 TEST(FieldsFile, ResumesAfterTheFramesOfTheCheckpoint) {
   for (const bool deforms : {true, false}) {
     const TemporaryFolder folder;
@@ -120,7 +120,7 @@ TEST(FieldsFile, ResumesAfterTheFramesOfTheCheckpoint) {
       }
     }
     EXPECT_EQ(kept.frames, 3U);
-    std::ofstream(path, std::ios::app) << "what was written when it was killed";
+    std::ofstream(path, std::ios::app) << "a partial write before a kill";
     {
       FieldsFile fields(path, shape, 10, 5, kept);
       EXPECT_EQ(fields.kept().digest, kept.digest);
@@ -167,7 +167,7 @@ with h5py.File("fields.h5", "r") as f:
             0);
 }
 
-// The writer is killed between two frames, as by a scheduler: what it wrote is there.
+// The writer is killed between two frames, as by a scheduler: the frames it wrote are readable.
 TEST(FieldsFile, IsReadableAfterAKill) {
   const TemporaryFolder folder;
   const auto scene = scene_of(21, 31, true);
@@ -191,7 +191,7 @@ TEST(FieldsFile, IsReadableAfterAKill) {
 // The file may not grow past a limit, as on a full disk.
 TEST(FieldsFile, AFailedWriteNamesTheFileAndTheReason) {
 #ifdef KOKKOS_ENABLE_THREADS
-  GTEST_SKIP() << "at exit Kokkos joins threads that a forked process has not";
+  GTEST_SKIP() << "at exit Kokkos joins threads that a forked process does not have";
 #endif
   const TemporaryFolder folder;
   const auto scene = scene_of(101, 101, true);
@@ -213,7 +213,7 @@ TEST(FieldsFile, AFailedWriteNamesTheFileAndTheReason) {
                    ? 0
                    : 2;
     }
-    // exit and not _exit: HDF5 closes what is left open, which must not fail either.
+    // exit and not _exit: HDF5 then closes open files, which must not fail either.
     std::exit(result);
   }
   int status = 0;

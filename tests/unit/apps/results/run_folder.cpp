@@ -166,7 +166,7 @@ TEST(RunFolder, AreasOfElementsAreThereWhereTheSceneAsksForThem) {
   EXPECT_EQ(read_text(folder / "out/element_areas.csv"), "t,A0,A1,A2,A3\n0.5,1,0.25,1.5,1.25\n");
   scene.output.element_areas = false;
   const RunFolder without(folder / "out", scene, true, true);
-  EXPECT_FALSE(fs::exists(folder / "out/element_areas.csv")) << "a result of the run before";
+  EXPECT_FALSE(fs::exists(folder / "out/element_areas.csv")) << "a result of the previous run";
 }
 
 TEST(RunFolder, RefusesAFolderWithResultsUnlessForced) {
@@ -184,7 +184,7 @@ TEST(RunFolder, RefusesAFolderWithResultsUnlessForced) {
   EXPECT_FALSE(fs::exists(folder / "out/summary.json"));
   EXPECT_FALSE(fs::exists(folder / "out/fields.h5"));
   EXPECT_FALSE(fs::exists(folder / "out/frames/frame_00007.png"));
-  EXPECT_EQ(read_text(folder / "out/notes.txt"), "old") << "what is not ours stays";
+  EXPECT_EQ(read_text(folder / "out/notes.txt"), "old") << "files of the user stay";
   EXPECT_EQ(read_text(folder / "out/frames/mine.png"), "old");
 }
 

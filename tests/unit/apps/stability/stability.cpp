@@ -69,7 +69,7 @@ TEST(StabilityFiles, PictureHasACellForEachRunAxesAndLegend) {
   EXPECT_EQ(count(svg, "nan"), 0u);
 }
 
-// dt = 0.1 and 0.3 over the bound 0.2: cells meet half way, at 1; the line lies there too.
+// dt = 0.1 and 0.3 over the bound 0.2: cells meet half-way, at 1, where the line of the bound is too.
 TEST(StabilityFiles, CellsMeetHalfWayBetweenRuns) {
   const std::string svg = map_svg(small_table());
   EXPECT_THAT(svg, HasSubstr("<rect x=\"0.0\" y=\"120.0\" width=\"150.0\" height=\"120.0\""));

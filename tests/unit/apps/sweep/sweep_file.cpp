@@ -1,13 +1,13 @@
-// Sweep files: which runs they make, and what is told of those that are wrong.
-#include "apps/sweep/sweep_file.hpp"
+// Sweep files: the runs they make, and the errors of invalid ones.
+#include "apps/sweep_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <set>
 
-#include "apps/input/scene_file.hpp"
-#include "solver/base/error.hpp"
+#include "apps/scene_file.hpp"
+#include "solver/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {
@@ -56,7 +56,7 @@ TEST(SweepFile, MultipliesAxesTheLastFastest) {
   EXPECT_EQ(plan.name, "test");
 }
 
-// What a list gives and what a range computes is the same run.
+// A value from a list and the same value from a range make the same run.
 TEST(SweepFile, RangesHaveTheNumbersThatAReaderWrites) {
   const auto range = parse("[[axis]]\nkey = \"excitation.mu1\"\nmin = 0.0975\nmax = 0.12\nnum = 10\n");
   const auto list = parse(
@@ -133,7 +133,7 @@ TEST(SweepFile, ReadsAnotherFilesSceneAndPathsBesideItself) {
   const auto plan = read_sweep(folder / "sweeps/s.toml");
   EXPECT_EQ(plan.runs.at(0).scene.grid.rows, 12);
   EXPECT_EQ(plan.runs[0].scene.initial.file, (folder / "sweeps/state.h5").string());
-  // What is in the file makes another run of it, where it is does not.
+  // The content of the file changes the run's identity; its path does not.
   std::ofstream(folder / "sweeps/state.h5") << "second";
   const auto other = read_sweep(folder / "sweeps/s.toml");
   EXPECT_NE(other.runs[0].id, plan.runs[0].id);
@@ -220,9 +220,9 @@ TEST(SweepFile, RefusesInvalidFiles) {
   EXPECT_THAT(refusal("scene = "), HasSubstr("test.toml:1:"));
 }
 
-// Those that are shipped: valid, with as many runs as their first lines say.
+// The shipped sweeps are valid and have as many runs as their first lines say.
 TEST(SweepFile, ShippedSweeps) {
-  const std::string folder = MYOWAVE_SOURCE_DIR "/apps/scenes/sweeps/";
+  const std::string folder = MYOWAVE_SOURCE_DIR "/apps/sweeps/";
   const auto fig11 = read_sweep(folder + "breakup_mu1.toml");
   EXPECT_EQ(fig11.runs.size(), 80u);
   EXPECT_TRUE(fig11.pairs);

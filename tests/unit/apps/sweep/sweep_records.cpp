@@ -1,5 +1,5 @@
-// Records of a sweep: what is read back, and what happens to what is damaged.
-#include "apps/sweep/sweep_records.hpp"
+// Records of a sweep: reading them back, and the handling of damaged ones.
+#include "apps/sweep_records.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -11,9 +11,9 @@
 #include <fstream>
 #include <thread>
 
-#include "apps/sweep/sweep_file.hpp"
-#include "apps/sweep/sweep_slurm.hpp"
-#include "apps/sweep/sweep_table.hpp"
+#include "apps/sweep_file.hpp"
+#include "apps/sweep_slurm.hpp"
+#include "apps/sweep_table.hpp"
 #include "myowave_version.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -83,7 +83,7 @@ TEST(Records, EveryFlippedBitIsFound) {
     const RecordsFolder folder;
     std::string damaged = b;
     damaged[at] = char(damaged[at] ^ (1 << (at % 8)));
-    if (damaged[at] == '\n') continue;  // two lines, neither whole: below
+    if (damaged[at] == '\n') continue;  // two partial lines: tested below
     folder.write(a + damaged + record_line(record("c")));
     const auto records = folder.read();
     EXPECT_THAT(records.by_id, SizeIs(2)) << at;
@@ -109,7 +109,7 @@ TEST(Records, ForeignAndNewerLinesAreReported) {
   EXPECT_THAT(records.refused[6], HasSubstr(":8: the line is no record of a sweep"));
 }
 
-// A success before a failure, this revision before another, then the later.
+// Prefers a success to a failure, this revision to another, then the newest.
 TEST(Records, TheBestOfDuplicateRecordsIsUsed) {
   const RecordsFolder folder;
   folder.write(record_line(record("a", "failed")) + record_line(record("a", "breakup", "old")) +
@@ -129,7 +129,7 @@ TEST(RecordFile, ReportsThatItWasRemoved) {
   fs::remove(folder.file());
   try {
     file.append(record("b"));
-    FAIL() << "a record went into a file that nobody finds";
+    FAIL() << "a record was written to a removed file";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr(folder.file().string() + ": the file was removed"));
   }
@@ -146,7 +146,7 @@ TEST(ShardLock, NamesItsOwnerAndEndsWithIt) {
   }
   waitpid(child, nullptr, 0);
   {
-    const ShardLock lock(path);  // though its text is there
+    const ShardLock lock(path);  // although its text is still there
     EXPECT_THAT(ShardLock::owner_of(path), HasSubstr("process " + std::to_string(getpid()) + " on "));
     try {
       const ShardLock second(path);

@@ -200,7 +200,7 @@ TEST(References, AreExtrapolatedOfNumbersAndTheFinestGridOfFields) {
   EXPECT_NEAR(*reference.values.at("cv").order, 2, 1e-6);
   EXPECT_NEAR(reference.values.at("cv").uncertainty, 100. / 32, 1e-6);
   EXPECT_NEAR(*reference.values.at("field_end").order, 2, 0.1);
-  EXPECT_FALSE(reference.values.contains("tips")) << "a mean only counts where single paths do not";
+  EXPECT_FALSE(reference.values.contains("tips")) << "means are used only where single paths are chaotic";
   const Errors errors = errors_of(std::vector{made(1.5, {0, 1})}, reference);
   EXPECT_NEAR(errors.at("cv").value, 25, 1e-6);
   EXPECT_EQ(errors.at("cv").uncertainty, reference.values.at("cv").uncertainty);
@@ -238,7 +238,7 @@ TEST(References, OfABreakUpAreItsTime) {
   EXPECT_EQ(errors_of(std::vector{breaking_up({}, {})}, reference).at("breakup").value, infinity);
 }
 
-// What comes after a break-up is chaotic, when it comes need not be.
+// The state after a break-up is chaotic; its time need not be.
 TEST(References, OfABreakUpIntoChaosAreItsMeanTime) {
   const std::vector levels{breaking_up(200, {1, 0}), breaking_up(203, {0, 1}), breaking_up(204, {1, 0})};
   const std::vector starts{breaking_up(201, {}), breaking_up({}, {}), breaking_up(203, {})};
@@ -279,7 +279,7 @@ TEST(Errors, OfTipsAreDistancesToTheNearestOfTheSameTurn) {
   run.tips = {{3, 4, 1}, {10, 1, -1}, {0, 1, -1}};
   EXPECT_DOUBLE_EQ(*error_of(*find_observable("tip"), run, reference), 3);
   run.tips = {{3, 4, 1}};
-  EXPECT_FALSE(error_of(*find_observable("tip"), run, reference)) << "none turns the other way";
+  EXPECT_FALSE(error_of(*find_observable("tip"), run, reference)) << "no tip has the other charge";
 }
 
 }  // namespace

@@ -161,8 +161,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Assemble,
                          testing::Values(ElementGrid{1, 1, 6}, ElementGrid{2, 3, 6}, ElementGrid{5, 4, 0.7},
                                          ElementGrid{1, 7, 6}, ElementGrid{2, 8, 6}, ElementGrid{3, 11, 6}));
 
-// An affine deformation under uniform tension: the stress is uniform, so that no force is left
-// inside, and on the edge it is the traction P N.
+// An affine deformation under uniform tension: the stress is uniform, so inner nodes have no force, and nodes
+// on the edge have the traction P N.
 TEST(PatchTest, AffineDeformationLeavesNoForceInside) {
   const ElementGrid grid{.rows = 4, .columns = 5, .h = 6};
   const Mat2 F{1.2, 0.3, -0.1, 0.8};
@@ -193,8 +193,8 @@ TEST(PatchTest, AffineDeformationLeavesNoForceInside) {
   }
 }
 
-// The forces of the follower load on the deformed boundary of the sheet, edge by edge, against
-// what the bulk term does to the assembled residual.
+// The forces of the follower load on the deformed boundary of the sheet, edge by edge, against the
+// contribution of the bulk term to the assembled residual.
 TEST(EdgeLoad, BulkTermOfTheSheetIsTheForceOnItsDeformedBoundary) {
   const ElementGrid grid{.rows = 3, .columns = 4, .h = 6};
   const Sheet sheet(grid);
@@ -263,7 +263,7 @@ TEST(Assemble, MixedTensionAndUniformSheet) {
   const Nodes<Memory> nodes("nodes", grid.nodes());
   elastic::place_uniform(Space(), grid, 1.5, nodes);
   const auto x = on_host(nodes);
-  EXPECT_DOUBLE_EQ(x(grid.node(1, 1), 0), 6);  // the middle stays
+  EXPECT_DOUBLE_EQ(x(grid.node(1, 1), 0), 6);  // the middle does not move
   EXPECT_DOUBLE_EQ(x(grid.node(1, 1), 1), 6);
   EXPECT_DOUBLE_EQ(x(grid.node(2, 3), 0), 6 + 1.5 * 12);
   EXPECT_DOUBLE_EQ(x(grid.node(2, 3), 1), 6 + 1.5 * 6);

@@ -1,5 +1,5 @@
-// One element: against the formulas written out with all their indices, its energy against its
-// residual, its residual against its tangent, edge loads by edge against by area.
+// One element: against the formulas written out with all indices; residual against energy, tangent against
+// residual; edge loads as forces on the edge against the bulk term.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -26,7 +26,7 @@ const Mat2 stretched{1.6, -0.4, 0.3, 1.2};
 
 class Stress : public testing::TestWithParam<Case> {};
 
-// S = F^-1 P, second Piola-Kirchhoff: symmetric, and what the laws below are written in.
+// S = F^-1 P, second Piola-Kirchhoff, symmetric; the laws below are written in S.
 Mat2 second_piola_kirchhoff(const EnergyDerivatives& w, const Mat2& F) {
   const Mat2 P = first_piola_kirchhoff(w, F);
   const double J = determinant(F);
@@ -137,7 +137,7 @@ TEST(ActiveStress, IsTaTimesTheInverseOfC) {
   EXPECT_NEAR(S.m22, 30 * g.m22, 1e-13);
 }
 
-// Around 1, where the logarithm is small, at the ends of the mantissa and over the range of numbers.
+// Near 1, where the logarithm is small; at the ends of the mantissa; and over the range of numbers.
 TEST(NaturalLogarithm, IsTheLibrarysToItsRounding) {
   for (const double x : {1.0, 1 + 1e-15, 1 - 1e-15, 0.9, 1.1, std::sqrt(0.5), std::sqrt(2.0), 0.70710678,
                          1.4142136, 2.0, 0.5, 3.7, 1e-3, 1e-300, 1e300}) {

@@ -210,7 +210,7 @@ TEST(PhaseSingularity, PlaneWaveHasNone) {
   EXPECT_EQ(find<double>(37, 67, {rest}, {rest}).count, 0);
 }
 
-// A tip in every place where a sweep in blocks could lose it.
+// A tip in every place where a search in blocks could miss it.
 TEST(PhaseSingularity, AtTheEdgesOfTheSheetAndOfABlock) {
   constexpr int rows = 5, columns = 2 * block_columns + 2;
   for (const int row : {0, 1, rows - 2})

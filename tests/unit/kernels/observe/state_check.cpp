@@ -32,7 +32,7 @@ InspectedState range(int rows, int columns, const std::vector<Values>& members) 
   return inspect_state(ExecutionSpace(), V, V, {});
 }
 
-// The plain loop: nothing of the kernel, mirrored indices written out.
+// The plain loop: no code of the kernel, mirrored indices written out.
 double plain_noise(int rows, int columns, const Values& V) {
   const auto at = [&](int i, int j) {
     const int row = i < 0 ? 1 : (i == rows ? rows - 2 : i),

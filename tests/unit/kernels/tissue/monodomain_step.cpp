@@ -177,7 +177,7 @@ TEST_P(Step, MembersAreIndependent) {
   expect_members_as_alone<float>();
 }
 
-// As many members as no cache holds, which are stepped with hints to fetch, against one alone.
+// More members than a cache holds, so that the step uses prefetch hints, against one alone.
 template <class Real>
 void expect_from_memory_as_from_cache(Kind kind) {
   const Sheet sheet{129, 67, 2};

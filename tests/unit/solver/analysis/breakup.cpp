@@ -9,7 +9,7 @@ namespace {
 
 constexpr double look_every = 0.2;  // t.u.
 
-// Looks every 0.2 t.u. until t_end; tips(t) and V(t).
+// Samples every 0.2 t.u. until t_end, with tips(t) and V(t).
 void watch(
     BreakupWatch& w, double t_end, const std::function<int(double)>& tips,
     const std::function<double(double)>& largest_V = [](double) { return 1.0; }, bool more_stimuli = false) {
@@ -40,7 +40,7 @@ TEST(BreakupWatch, ExcessMustLast) {
     return w.breakup();
   };
   EXPECT_FALSE(after_excess(0.2));
-  EXPECT_FALSE(after_excess(2.0));  // the looks at 30.0 to 31.8
+  EXPECT_FALSE(after_excess(2.0));  // the samples at 30.0 to 31.8
   ASSERT_TRUE(after_excess(2.2));
   EXPECT_NEAR(*after_excess(2.2), 30, 1e-9);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Capture = RestitutionPoint::Capture;
 
-// A cell whose V falls as exp(-t): V_t = -r V with r = 1, kept by eps = mu1 = 0.
+// A cell whose V falls as exp(-t): V_t = -r V with r = 1, constant because eps = mu1 = 0.
 PacedCell decaying_cell(double dt) {
   PacedCell cell;
   cell.excitation = {.a = 0.1, .b = 0.1, .k = 0, .eps = 0, .mu1 = 0};
@@ -22,7 +22,7 @@ PacedCell decaying_cell(double dt) {
 
 TEST(CellProtocol, TimeToFallOfAnExponential) {
   EXPECT_NEAR(time_to_fall(decaying_cell(1e-4), {.V = 1, .r = 1}, 0.1), std::log(10.0), 2e-4);
-  // Euler: V_n = (1 - dt)^n, so that 0.9 and 0.81 at dt = 0.1; 0.855 is half way between
+  // Euler: V_n = (1 - dt)^n, so 0.9 and 0.81 at dt = 0.1; 0.855 is half-way between them
   EXPECT_NEAR(time_to_fall(decaying_cell(0.1), {.V = 1, .r = 1}, 0.855), 0.15, 1e-12);
 }
 

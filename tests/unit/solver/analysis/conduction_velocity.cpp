@@ -43,7 +43,7 @@ TEST(ConductionVelocity, FrontsThatCollideHaveNoneWhereTheyMeet) {
 TEST(ConductionVelocity, OfARingIsRadial) {
   const auto velocity =
       velocity_of([](double x, double y) { return std::hypot(x - 11 * dx, y - 8 * dx) / 1.2; });
-  EXPECT_TRUE(std::isnan(velocity[8 * columns + 11])) << "it begins there";
+  EXPECT_TRUE(std::isnan(velocity[8 * columns + 11])) << "it starts there";
   for (int i = 1; i < rows - 1; ++i)
     for (int j = 1; j < columns - 1; ++j)
       if (std::hypot(i - 8, j - 11) > 4) {
@@ -54,11 +54,11 @@ TEST(ConductionVelocity, OfARingIsRadial) {
 TEST(ConductionVelocity, AcrossBeatsAndMissingNodesThereIsNone) {
   const auto velocity = velocity_of([](double x, double y) {
     if (y == 0 && x == 0) return nan;
-    return x / 1.5 + (x > 10.5 * dx ? 0 : 27.0);  // the front of the next beat has come to column 10
+    return x / 1.5 + (x > 10.5 * dx ? 0 : 27.0);  // the front of the next beat is at column 10
   });
   for (int j : {9, 12}) EXPECT_NEAR(velocity[5 * columns + j], 1.5, 1e-9);
   for (int j : {10, 11}) EXPECT_TRUE(std::isnan(velocity[5 * columns + j]));
-  for (int n : {0, 1, columns}) EXPECT_TRUE(std::isnan(velocity[n])) << "beside no time";
+  for (int n : {0, 1, columns}) EXPECT_TRUE(std::isnan(velocity[n])) << "neighbours without activation time";
   EXPECT_NEAR(velocity[columns + 1], 1.5, 1e-9);
 }
 

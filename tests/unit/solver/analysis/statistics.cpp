@@ -71,7 +71,7 @@ TEST(SeriesStatistics, GiveTheEffectiveSampleSize) {
   EXPECT_NEAR(s.sd, 1 / std::sqrt(1 - 0.81), 0.05);
   EXPECT_DOUBLE_EQ(s.effective_n, 100000 / *s.correlation);
   EXPECT_DOUBLE_EQ(s.standard_error, s.sd / std::sqrt(s.effective_n));
-  // What is anticorrelated counts as independent, not as more than there is.
+  // Anticorrelated samples count as independent, not as more than there are.
   EXPECT_EQ(series_statistics(autoregressive(-0.5, 1000, 3)).effective_n, 1000);
   const auto constant = series_statistics(std::vector<double>(50, 1.0));
   EXPECT_EQ(constant.mean, 1);
@@ -125,7 +125,7 @@ TEST(TTest, OnlyTheOneWithCorrelationHasItsNominalLevel) {
     student += student_t_test(a, b)->p < 0.05 ? 1 : 0;
     welch += welch_t_test(a, b)->p < 0.05 ? 1 : 0;
   }
-  // Student's statistic has sqrt(39) times the spread that it takes for one.
+  // Student's statistic has sqrt(39) times the spread that the test assumes.
   EXPECT_NEAR(static_cast<double>(student) / pairs, std::erfc(1.96 / std::sqrt(2 * 39.0)), 0.09);
   EXPECT_NEAR(static_cast<double>(welch) / pairs, 0.05, 0.04);
 }

@@ -45,7 +45,7 @@ std::vector<TipTrajectory> follow(double t_end, const TipsAt& tips) {
   return ended;
 }
 
-// On a circle of 1.8 about (x, y), once in 26.8 t.u.
+// A tip on a circle of radius 1.8 about (x, y), period 26.8 t.u.
 constexpr double radius = 1.8, period = 26.8;
 Tip on_circle(double x, double y, double t, int charge = 1) {
   const double phase = charge * two_pi * t / period;
@@ -85,7 +85,7 @@ TEST(TipTrajectory, NeedsAWholeRotationForACoreAndTwoForADrift) {
   EXPECT_TRUE(after(2.2).drift);
 }
 
-// Nor does a wait or a straight way.
+// A tip that waits or moves straight has no core.
 TEST(TipTrajectory, WithoutARotationHasNoCore) {
   EXPECT_FALSE(follow(100, [](double) { return std::vector{Tip{30, 30, 1}}; })[0].core);
   EXPECT_FALSE(follow(100, [](double t) { return std::vector{Tip{10 + 0.4 * t, 30, 1}}; })[0].core);
@@ -153,7 +153,7 @@ TEST(TipTrajectory, OneThatVanishesInTheMiddleEndsAlone) {
   EXPECT_FALSE(all[0].boundary);
 }
 
-// Two of the same charge are no pair; nor is one of them linked to one of the other charge.
+// Two tips of the same charge are not a pair, and tips of opposite charge are not linked.
 TEST(TipTrajectory, ChargeIsConstant) {
   const auto all = follow(30, [](double t) {
     const int charge = t < 10 ? 1 : -1;
@@ -200,7 +200,7 @@ TEST(TipTrajectory, TheGateFollowsTheIntervalAndTheFastestFront) {
   EXPECT_EQ(jump_of(3.4), 2U);
 }
 
-// Many tips on circles of their own: no order of the tips changes what is found, numbers included.
+// Many tips, each on its own circle: the order of the tips changes no result, numbers included.
 TEST(TipTrajectory, TheOrderOfTheTipsDoesNotMatter) {
   std::mt19937 bits(5);
   const auto tips_at = [](double t) {
@@ -238,7 +238,7 @@ struct FieldRate {
   KOKKOS_FUNCTION double operator()(int m, int i, int j) const { return values(m, i, j); }
 };
 
-// A field that turns about a point that goes round, through the search on the device: place, charge, core.
+// A field that rotates about a point on a circle, through the search on the device: position, charge, core.
 TEST(TipTrajectory, OfARotatingFieldIsItsCenters) {
   const tissue::Grid grid{101, 101, 0.6};
   const auto tips = [&](double t) {
@@ -274,7 +274,7 @@ TEST(TipTrajectory, OfARotatingFieldIsItsCenters) {
   EXPECT_LT(all[0].drift->speed, 1e-3);
 }
 
-// A broken front: one tip from the start on, and what comes and goes beside it comes and goes in pairs.
+// A broken front: one tip from the start; all others appear and vanish in pairs.
 TEST(TipTrajectory, OfABrokenFrontThatCurls) {
   Scene scene = sheet();
   scene.time.t_end = 100;
@@ -294,7 +294,7 @@ TEST(TipTrajectory, OfABrokenFrontThatCurls) {
       EXPECT_EQ(one.born, TipEvent::pair) << one.number;
       EXPECT_EQ(one.ended, TipEvent::pair) << one.number;
     }
-  // Each sample has every trajectory that lives then once, and no other.
+  // Each sample has every trajectory alive at that time exactly once.
   for (const auto& sample : run.sink.tip_samples) {
     std::vector<int> numbers, living;
     for (const auto& tip : sample.tips) numbers.push_back(tip.trajectory);

@@ -15,7 +15,7 @@
 namespace myowave::solver {
 namespace {
 
-// By the bits: once denormals are taken for zero, std::fpclassify takes them so too.
+// By the bits: with denormals-are-zero, std::fpclassify treats denormals as zero too.
 bool is_denormal(double value) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000, mantissa = 0x000fffffffffffff;
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -29,7 +29,7 @@ TEST(Denormals, AreDistinguishedFromZeroByTheirBits) {
   EXPECT_FALSE(is_denormal(0));
 }
 
-// Threads on which half of the smallest normal number is not zero.
+// Number of threads on which half of the smallest normal number is not zero.
 int threads_with_denormals() {
   using Host = Kokkos::DefaultHostExecutionSpace;
   const int threads = Host().concurrency();
@@ -60,8 +60,8 @@ TEST(Denormals, AreFlushedOnEveryThread) {
   }
 }
 
-// V decays as exp(-k a t) = exp(-0.8 t) at rest: from 1e-304 it is denormal from t = 12 on and
-// still above the smallest one at t = 20.
+// V decays as exp(-k a t) = exp(-0.8 t) at rest: from 1e-304 it becomes denormal at t = 12 and is still above
+// the smallest denormal at t = 20.
 TEST(Denormals, DoNotStayInASheetAtRest) {
   Scene scene;
   scene.grid = {121, 121, 0.6};
@@ -77,8 +77,8 @@ TEST(Denormals, DoNotStayInASheetAtRest) {
   EXPECT_EQ(std::count_if(end.V.begin(), end.V.end(), is_denormal), 0);
   EXPECT_EQ(std::count_if(end.r.begin(), end.r.end(), is_denormal), 0);
   EXPECT_EQ(std::count_if(end.Ta.begin(), end.Ta.end(), is_denormal), 0);
-  // It has come down to where its change dt k a V is flushed, if the processor rounds that product
-  // before it adds it.
+  // V has decayed until its change dt k a V is flushed, if the processor rounds that product before it adds
+  // it.
   const double change = scene.time.dt * scene.excitation.k * scene.excitation.a;
   EXPECT_LT(*std::max_element(end.V.begin(), end.V.end()), std::numeric_limits<double>::min() / change);
 }

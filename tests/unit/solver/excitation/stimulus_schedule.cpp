@@ -45,7 +45,7 @@ TEST(StimulusSchedule, PulseLastsItsStepsWhateverTheRounding) {
 }
 
 TEST(StimulusSchedule, PeriodsThatAreNotMultiplesOfAStepDoNotDrift) {
-  // Pulse m begins at the first step at or after m times 1.37.
+  // Pulse m starts at the first step at or after m times 1.37.
   const auto on = steps_on(pulses(0, 1.37, 0.02, 1000), 70000);
   ASSERT_EQ(on.size(), 1000U);
   for (std::size_t m = 0; m < on.size(); ++m)

@@ -90,8 +90,8 @@ TEST(Newton, APotentialWithoutMinimumIsGivenUp) {
   EXPECT_EQ(report.iterations, 60);
 }
 
-// The slope is wrong: no length ever decreases Pi. The shift grows until the step is no more than
-// rounding, and the attempts are counted.
+// The slope is wrong: no step length decreases Pi. The shift grows until the step is below rounding, and the
+// attempts are counted.
 TEST(Newton, AStepThatIsNeverAcceptedIsGivenUp) {
   Toy toy{.energy = [](double x) { return x; },
           .slope = [](double) { return -1; },
@@ -130,7 +130,7 @@ TEST(Newton, StartsWithTheFactorOfTheLastMinimum) {
   EXPECT_NEAR(toy.x - c + toy.x * toy.x * toy.x, 0, 1e-8);
 }
 
-// The factor of a maximum leads uphill: it is not followed.
+// The factor of a maximum leads uphill and is not used.
 TEST(Newton, AFactorThatLeadsUphillIsNotUsed) {
   Toy toy{.energy = [](double x) { return (x - 3) * (x - 3); },
           .slope = [](double x) { return 2 * (x - 3); },

@@ -1,5 +1,5 @@
-// Files of checkpoints: two take turns, and what is damaged is told and not used.
-#include "solver/run/checkpoint.hpp"
+// Checkpoint files: the last two remain, and damaged ones are reported and not used.
+#include "solver/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <optional>
 
-#include "solver/base/archive.hpp"
+#include "solver/archive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::solver {
@@ -100,7 +100,7 @@ class Checkpoint : public testing::Test {
     writer(step, std::string(300, 'x'));
     keeper.keep(writer, step, 0.5 * double(step), "mark " + std::to_string(step));
   }
-  // Newest and the one before.
+  // The newest and the previous one.
   void keep_two() {
     CheckpointKeeper keeper(folder.path(), "the run");
     keep(keeper, 1), keep(keeper, 2);
@@ -120,7 +120,7 @@ class Checkpoint : public testing::Test {
   void write(const std::filesystem::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
   }
-  // The one before is found, and this said of the newest.
+  // The previous one is found, and the message says why the newest is not used.
   void expect_refused(const std::filesystem::path& file, const std::string& why) {
     std::vector<std::string> refused;
     const auto found = find_checkpoint(folder.path(), refused);
@@ -153,7 +153,7 @@ TEST_F(Checkpoint, TheLastTwoRemain) {
   std::filesystem::remove(newest->file);
   const auto before = find_checkpoint(folder.path(), refused);
   EXPECT_EQ(before->step, 4);
-  // A run that goes on from it replaces no other.
+  // A run that resumes from it does not overwrite it.
   CheckpointKeeper next(folder.path(), "the run", &*before);
   keep(next, 6);
   EXPECT_EQ(find_checkpoint(folder.path(), refused)->step, 6);
@@ -215,7 +215,7 @@ TEST_F(Checkpoint, AFailedWriteLeavesEarlierOnes) {
   std::vector<std::string> refused;
   const auto before = find_checkpoint(folder.path(), refused);
   CheckpointKeeper keeper(folder.path(), "the run", &*before);
-  // A folder stands where the file would be written.
+  // A folder has the name of the file to write.
   std::filesystem::create_directory(folder / "checkpoint_even.tmp");
   EXPECT_THROW(
       {

@@ -22,7 +22,7 @@ TEST(MemoryWatch, ReportsTheLargestTotalOfTheProjectsViews) {
   older.emplace("myowave::test::older", 50);
   const MemoryWatch watch;
   EXPECT_TRUE(watch.most().empty());
-  older.reset();  // was there before the watch
+  older.reset();  // allocated before the watch
   {
     const View a("myowave::test::a", 100);
     const View foreign("somebody::else", 5000);
@@ -48,7 +48,7 @@ TEST(MemoryWatch, ALoadedToolStillGetsAllEvents) {
     EXPECT_EQ(watch.most().front().bytes, 100 * sizeof(double));
   }
   const View later("myowave::test::later", 1);
-  EXPECT_EQ(heard_by_tool, 3) << "the callbacks of before";
+  EXPECT_EQ(heard_by_tool, 3) << "the callbacks set before the watch";
   tools::set_callbacks(before);
 }
 

@@ -10,7 +10,7 @@
 namespace myowave::solver {
 namespace {
 
-// A full lower triangle of a band matrix, compressed by rows.
+// The full lower triangle of a band matrix in compressed rows.
 struct BandMatrix {
   int n, band;
   std::vector<int> row_begin{0}, column;
@@ -38,7 +38,7 @@ struct BandMatrix {
   }
 };
 
-// Sizes around the tile of eight columns, bands from none to full.
+// Sizes near multiples of the tile of eight columns, bands from none to full.
 TEST(BandedLdlt, SolvesEverySizeAndBand) {
   for (const int n : {1, 2, 7, 8, 9, 15, 16, 17, 40, 83})
     for (const int band : {0, 1, 2, 7, 8, 9, 20, 39, 82}) {

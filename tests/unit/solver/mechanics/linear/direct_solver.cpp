@@ -43,14 +43,14 @@ TEST_P(DirectSolverBy, ReportsAnIndefiniteMatrixAndRecovers) {
   EXPECT_NEAR(x[2], 3, 1e-15);
 }
 
-// The sheet of the paper, and shapes whose supernodes are narrow, many or one.
+// The sheet of the paper, and shapes with narrow, many or a single supernode.
 TEST_P(DirectSolverBy, SolvesMeshes) {
   for (const auto& grid : {elastic::ElementGrid{25, 25, 6}, {1, 1, 6}, {2, 3, 6}, {1, 40, 6}, {40, 7, 6}}) {
     const Mesh mesh = make_mesh(grid, Edges::load);
     DirectSolver solver(mesh.row_begin, mesh.column, GetParam());
     std::vector<double> A = mesh.gradient_product;
     for (int row = 0; row < mesh.unknowns; ++row) A[mesh.row_begin[row + 1] - 1] += 0.1;
-    // The second time over what the first has left.
+    // The second factorisation overwrites the first.
     for (int time = 0; time < 2; ++time) ASSERT_EQ(solver.factorize(A), Factorization::positive_definite);
     test::Uniform uniform(1);
     std::vector<double> x(mesh.unknowns), b(mesh.unknowns), found(mesh.unknowns);
