@@ -1,4 +1,4 @@
-# Every library that myowave uses; why each is here stands in cmake/README.md.
+# Finds every library that myowave uses. cmake/README.md says what each is for.
 include(Kokkos)
 find_package(CHOLMOD REQUIRED)
 find_package(fmt REQUIRED)
@@ -20,7 +20,7 @@ if(MYOWAVE_BENCH)
   find_package(benchmark REQUIRED)
 endif()
 
-# Asked only now: with a version in find_package, packages that promise compatibility within a major one refuse newer ones.
+# Checked here and not in find_package: with a version there, packages compatible within a major version refuse newer ones.
 set(too_old "")
 function(at_least name least found)
   if(found AND found VERSION_LESS least)

@@ -1,6 +1,5 @@
-# CHOLMOD of SuiteSparse: its own CMake package where it has one (SuiteSparse >= 7), else the
-# headers and libraries that distributions install. Defines the target SuiteSparse::CHOLMOD, and of the latter
-# CHOLMOD_SUITESPARSE_VERSION.
+# CHOLMOD of SuiteSparse: its own CMake package (SuiteSparse >= 7), else the headers and libraries that distributions
+# install. Defines the target SuiteSparse::CHOLMOD, and without a package CHOLMOD_SUITESPARSE_VERSION.
 find_package(CHOLMOD CONFIG QUIET)
 if(TARGET SuiteSparse::CHOLMOD)
   set(CHOLMOD_FOUND TRUE)

@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Their headers name each other from the project's root, so they keep a folder of their own.
+# The headers include each other by paths from the project's root, so they are installed in their own folder.
 install(TARGETS myowave_kernels myowave_solver EXPORT myowave
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/myowave)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/myowave)
@@ -17,7 +17,7 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/myowaveConfig.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake DESTINATION ${package})
 
 if(MYOWAVE_APPS)
-  # Kokkos may lie in .deps/, and what is inside the project is no link path to CMake.
+  # Kokkos may be in .deps/, and CMake does not count folders inside the project as link paths.
   set_target_properties(myowave PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON
                         INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
   install(TARGETS myowave)

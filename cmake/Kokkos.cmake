@@ -1,7 +1,7 @@
-# Finds Kokkos, and stops where it is not the one that a preset is for.
+# Finds Kokkos, and stops if it does not match the preset.
 #
-# MYOWAVE_BACKEND  where the excitation must run: OPENMP, SERIAL, THREADS, CUDA, HIP; empty: wherever this Kokkos runs by default
-# MYOWAVE_GPU      architecture that Kokkos must be built for, by Kokkos' name (HOPPER90), or a list of which one will do; empty: any
+# MYOWAVE_BACKEND  backend the excitation must run on: OPENMP, SERIAL, THREADS, CUDA, HIP; empty: the default of the Kokkos found
+# MYOWAVE_GPU      architecture that Kokkos must be built for, by Kokkos' name (HOPPER90), or a list of accepted ones; empty: any
 set(MYOWAVE_BACKEND "" CACHE STRING "Kokkos backend that the excitation must run on; empty: the default of the Kokkos found")
 set(MYOWAVE_GPU "" CACHE STRING "GPU architecture that Kokkos must be built for, one of this list; empty: any")
 set_property(CACHE MYOWAVE_BACKEND PROPERTY STRINGS "" OPENMP SERIAL THREADS CUDA HIP)
@@ -12,14 +12,14 @@ if(NOT Kokkos_FOUND)
   if(Kokkos_CONSIDERED_CONFIGS)
     list(JOIN Kokkos_CONSIDERED_VERSIONS ", " versions)
     list(JOIN Kokkos_CONSIDERED_CONFIGS "\n  " configs)
-    set(found "Looked at and not taken (version ${versions}):\n  ${configs}\n")
+    set(found "Found but not accepted (version ${versions}):\n  ${configs}\n")
   endif()
   message(FATAL_ERROR
     "myowave needs Kokkos >= 4.6. ${found}Point CMake to it with -DKokkos_ROOT=PREFIX (Spack: `spack load kokkos`), "
-    "or run ./dev setup, which unpacks Debian's OpenMP build into .deps/ and leaves the system alone.")
+    "or run ./dev setup, which unpacks Debian's OpenMP build into .deps/ and does not change the system.")
 endif()
 
-# The default execution space of Kokkos: a device before the host's threads before one core.
+# The default execution space of Kokkos: a device, else the host's threads, else one core.
 foreach(backend CUDA HIP SYCL OPENMP THREADS HPX SERIAL)
   if(backend IN_LIST Kokkos_DEVICES)
     set(myowave_backend ${backend})
@@ -44,33 +44,33 @@ function(require_kokkos_of_preset)
   set(this "The Kokkos found, ${Kokkos_VERSION} in ${Kokkos_DIR}, has the backends ${devices}")
   set(fix "point to another one with -DKokkos_ROOT=PREFIX, build one with ${options}")
   if(MYOWAVE_BACKEND AND NOT MYOWAVE_BACKEND IN_LIST Kokkos_DEVICES)
-    message(FATAL_ERROR "${this} and not ${MYOWAVE_BACKEND}, which this preset is for. To mend it: ${fix}, "
-                        "or take the preset of a backend that it has (cmake --list-presets).")
+    message(FATAL_ERROR "${this} and not ${MYOWAVE_BACKEND}, which this preset is for. To fix it: ${fix}, "
+                        "or use the preset of a backend that it has (cmake --list-presets).")
   endif()
   if(MYOWAVE_BACKEND AND NOT MYOWAVE_BACKEND STREQUAL myowave_backend)
     message(FATAL_ERROR "${this} and runs on ${myowave_backend} by default, not on ${MYOWAVE_BACKEND}, which this preset is "
-                        "for. To mend it: ${fix} and without ${myowave_backend}, or take the preset of ${myowave_backend}.")
+                        "for. To fix it: ${fix} and without ${myowave_backend}, or use the preset of ${myowave_backend}.")
   endif()
   if(NOT has_gpu)
     list(JOIN Kokkos_ARCH ", " architectures)
     message(FATAL_ERROR "${this} for ${architectures} and not for ${gpu}, which this preset is for. "
-                        "To mend it: ${fix}, or give your GPU's name with -DMYOWAVE_GPU=NAME (empty: any).")
+                        "To fix it: ${fix}, or give your GPU's name with -DMYOWAVE_GPU=NAME (empty: any).")
   endif()
-  # Since 5 there is no other.
+  # Since Kokkos 5 it is always on.
   if(myowave_backend STREQUAL "CUDA" AND Kokkos_VERSION VERSION_LESS 5 AND NOT "CUDA_LAMBDA" IN_LIST Kokkos_OPTIONS)
-    message(FATAL_ERROR "${this} without CUDA_LAMBDA, and kernels are lambdas. To mend it: point to another one with "
+    message(FATAL_ERROR "${this} without CUDA_LAMBDA, and kernels are lambdas. To fix it: point to another one with "
                         "-DKokkos_ROOT=PREFIX, or build it again with -DKokkos_ENABLE_CUDA_LAMBDA=ON.")
   endif()
 endfunction()
 require_kokkos_of_preset()
 
 if(myowave_backend STREQUAL "CUDA" AND Kokkos_CXX_COMPILER_ID STREQUAL "NVIDIA")
-  # Kernels call constexpr functions of the standard library; nvcc lets them by a flag, which Kokkos passes on
-  # only where it was built with Kokkos_ENABLE_CUDA_CONSTEXPR.
+  # Kernels call constexpr functions of the standard library. nvcc allows that with a flag, which Kokkos passes on
+  # only if it was built with Kokkos_ENABLE_CUDA_CONSTEXPR.
   if(NOT "CUDA_CONSTEXPR" IN_LIST Kokkos_OPTIONS)
     set(MYOWAVE_NEEDS_RELAXED_CONSTEXPR ON)
   endif()
-  # Sources without Kokkos go to the compiler that nvcc_wrapper has for the host's half.
+  # Sources without Kokkos go to nvcc_wrapper's host compiler.
   if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")
     set(MYOWAVE_HOST_ONLY --host-only)
   endif()

@@ -1,4 +1,4 @@
-# Writes OUTPUT with version and git revision; touches it only when they changed.
+# Writes OUTPUT with version and git revision, and only if they changed.
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
                 OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)

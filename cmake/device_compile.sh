@@ -1,17 +1,16 @@
 #!/usr/bin/env bash
-# Compiles translation units to a GPU's machine code on a machine without that GPU and without a
-# Kokkos built for it, and prints and judges what each kernel needs (kernel_resources.sh). It is a
-# compile check; it proves no run.
+# Compiles translation units to a GPU's machine code on a machine without that GPU and without a Kokkos built for
+# it, and lists and checks the resources of each kernel (kernel_resources.sh). It is a compile check: it does not
+# run the code.
 #
 #   cmake/device_compile.sh cuda|hip ARCHITECTURE KOKKOS_INCLUDE WORK [-FLAG]... SOURCE...
 #
 # ARCHITECTURE is sm_80 or sm_90 of CUDA, gfx90a or gfx942 of HIP. HIP's headers and device libraries are those of
-# $ROCM_PATH; where that is not set, of /opt/rocm, of what fetch_hip.sh unpacked, or of the system.
+# $ROCM_PATH if it is set, else of /opt/rocm, of fetch_hip.sh, or of the system.
 #
-# Kokkos installs the headers of every backend. A few generated ones choose among them: copies of
-# these, edited for the wanted backend, go into WORK and first on the include path. Objects and
-# reports stay in WORK; a source none of whose files changed is not compiled again.
-# Exits 77 where the compiler is missing, or what it needs.
+# Kokkos installs the headers of every backend, and a few generated headers choose among them. Copies of these, edited
+# for the backend, go to WORK, first on the include path. Objects and reports stay in WORK. A source is compiled again
+# only if it or an included file changed. Exits with 77 if the compiler or its libraries are missing.
 set -euo pipefail
 
 backend=$1 architecture=$2 kokkos=$3 work=$4
@@ -36,8 +35,8 @@ esac
 find_cuda() {
   compiler=$(PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin command -v nvcc) || skip "no nvcc on PATH or in /usr/local/cuda"
   defines+=(KOKKOS_ENABLE_CUDA KOKKOS_ENABLE_CUDA_LAMBDA)
-  # A host function called from a kernel may be a mere warning to nvcc. FMT: see Targets.cmake. -cubin: without the
-  # host's half of the object, which the host's own compiler makes anyway: a third of the time.
+  # For nvcc a host function called from a kernel may be only a warning. FMT: see Targets.cmake. -cubin: leaves out the
+  # host's half of the object, to save time; the host compiler compiles it anyway.
   flags=(-x cu -cubin -arch="$architecture" --extended-lambda --expt-relaxed-constexpr -Xptxas -v
     -Werror cross-execution-space-call -DFMT_USE_CONSTEXPR=1)
 }
@@ -51,18 +50,18 @@ find_hip() {
     [ -z "$bitcode" ] || break
   done
   [ -n "$bitcode" ] || skip "no HIP headers and device libraries in ${prefixes[*]} (ROCM_PATH names another place)"
-  # A ROCm's device libraries are for its own compiler.
+  # The device libraries of a ROCm work with its own compiler.
   compiler=$(command -v "$rocm/bin/amdclang++" clang++-19 amdclang++ | head -n 1) ||
     skip "no clang++-19 or amdclang++ on PATH"
   defines+=(KOKKOS_ENABLE_HIP)
   flags=(-x hip -c --offload-arch="$architecture" --cuda-device-only --no-gpu-bundle-output)
-  # The code is linked too, GPU by GPU.
+  # The compiler also links the device code, which needs lld.
   "$compiler" "${flags[@]}" -nogpuinc -nogpulib /dev/null -o /dev/null 2>/dev/null ||
     skip "$compiler makes no $architecture code (Debian: lld-19 links it)"
   flags+=(--rocm-path="$rocm" --rocm-device-lib-path="$bitcode" -Rpass-analysis=kernel-resource-usage)
 }
 
-# The headers that choose the backends, as Kokkos' own CMake would write them.
+# Writes the headers that choose the backends, as Kokkos' own CMake does.
 write_overlay() {
   local name=${backend^^} header
   [ "$overlay/KokkosCore_config.h" -nt "$0" ] && [ "$overlay/KokkosCore_config.h" -nt "$kokkos/KokkosCore_config.h" ] && return
@@ -80,7 +79,7 @@ write_overlay() {
     printf '#define %s\n' KOKKOS_ENABLE_SERIAL "${defines[@]}"; } >"$overlay/KokkosCore_config.h"
 }
 
-# True if the object is newer than every file it was made from.
+# True if the object is newer than every file that it was compiled from.
 is_fresh() {
   local files
   [ -f "$1" ] && [ "$1" -nt "$overlay/KokkosCore_config.h" ] || return
@@ -88,7 +87,7 @@ is_fresh() {
   [ -z "$(find "${files[@]}" -newer "$1" 2>&1)" ]
 }
 
-# Leaves the time it took in SOURCE's .time.
+# Writes the time of the compilation to the object's .time.
 compile() {
   local source=$1 object=$2 TIMEFORMAT='%U s'
   { time "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" "${own_flags[@]}" \
@@ -105,8 +104,8 @@ object_of() {
   echo "$work/${name//\//_}.o"
 }
 
-# As many at once as there are cores: together they take longer than all other tests. nproc itself heeds
-# OMP_NUM_THREADS, which ctest's other tests have at 1.
+# One compilation a core, because these take longer than all other tests. nproc respects OMP_NUM_THREADS, which
+# ./dev test sets.
 cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
 for source in "$@"; do
   object=$(object_of "$source")

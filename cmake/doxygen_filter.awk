@@ -1,17 +1,17 @@
 # Shows doxygen the comments of a header as documentation, line by line:
 #
-#   the comment that begins the file     -> /** \file */, the #pragma once after it making room
+#   the comment that starts the file     -> /** \file */; the #pragma once after it is dropped to keep line numbers
 #   // lines right before a declaration  -> /** */
 #   declaration;  // text                -> ///<
 #
-# A comment before an empty line belongs to no declaration and stays one, like those inside of functions. Indented
-# lines are shown as they are. What doxygen or Markdown would read as markup is escaped, but for `code` and lists.
+# A comment before an empty line, or inside a function, belongs to no declaration and stays a plain comment. Indented
+# lines are shown verbatim. Markup of doxygen or Markdown is escaped, except `code` and lists.
 
-# Whether the scope is one of declarations, D, with enumerators, E, or a body or an initializer, B.
+# Kind of the current scope: declarations (D), enumerators (E), or a body or an initializer (B).
 function scope() { return depth == 0 ? "D" : kind[depth] }
 function declares() { return scope() != "B" && parens == 0 && (head == "" || scope() == "E" && head !~ /=[^,]*$/) }
 
-# What the brace after this beginning of a declaration opens.
+# Kind of the scope that the brace after this start of a declaration opens.
 function opens(text) {
   while (gsub(/<[^<>]*>/, "", text)) {}
   gsub(/(public|private|protected) *:|alignas\([^)]*\)|template|inline/, "", text)
@@ -60,7 +60,7 @@ function escaped(text,    i, c, result, code) {
   return result
 }
 
-# Prints the comment lines that wait, as documentation or as they are.
+# Prints the pending comment lines, as documentation or unchanged.
 function flush_comment(documents,    i, text, shown, listed, lines) {
   for (i = 1; i <= waiting; ++i) {
     text = lines[i] = comment[i]

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Unpacks what compiling HIP code for an AMD GPU needs beside clang++-19 and lld-19 into PREFIX, without touching the
-# system: HIP's headers of Debian sid, for Debian 12 has none that Kokkos takes, and the device libraries that this
-# clang reads. Needs no root: private_apt.sh. Nothing of it runs; only the tests device_hip_* use it.
+# Unpacks what is needed to compile HIP code for an AMD GPU, besides clang++-19 and lld-19, into PREFIX, without changing
+# the system: HIP's headers of Debian sid, because those of Debian 12 are too old for Kokkos, and the device libraries
+# for this clang. Needs no root: private_apt.sh. Only the tests device_hip_* use it, to compile.
 #
 #   cmake/fetch_hip.sh PREFIX      -> PREFIX/usr         headers and device libraries
 #                                     PREFIX/versions    the packages they are from
@@ -15,7 +15,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 source "$(dirname "$0")/private_apt.sh"
-# Nobody shall wait for what only a test wants.
+# Short time-outs, because only a test needs it.
 private_apt_options+=(-o Acquire::Retries=0 -o Acquire::http::Timeout=15 -o APT::Update::Error-Mode=any)
 archive=$(private_apt_archive) || { say "apt knows no Debian archive: ROCM_PATH may name a ROCm"; exit 1; }
 say "unpacking the headers of Debian sid and the device libraries of trixie into $prefix"
@@ -27,6 +27,6 @@ mkdir "$work/debs"
 rm -rf "$prefix"
 mkdir -p "$prefix"
 for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$prefix"; done
-# Last: with it the folder is complete.
+# Written last: it marks a complete folder.
 for deb in "$work"/debs/*.deb; do dpkg-deb --show "$deb"; done >"$prefix/versions"
 say "done"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Unpacks Debian's Kokkos (OpenMP backend) into PREFIX without touching the system, for machines
-# whose own packages have none >= 4.6. Needs no root: private_apt.sh.
+# Unpacks Debian's Kokkos (OpenMP backend) into PREFIX without changing the system, for machines without a package
+# of Kokkos >= 4.6. Needs no root: private_apt.sh.
 #
 #   cmake/fetch_kokkos.sh PREFIX      -> PREFIX/usr        headers, libraries, CMake package
 #                                        PREFIX/runtime    the libc, libstdc++, libgomp they need
@@ -34,8 +34,8 @@ done
 find "$work/root" \( -path '*lib/*-linux-gnu/*.so*' -o -name 'ld-linux*.so*' \) \( -type f -o -type l \) \
   -not -path '*/gconv/*' -exec cp -Pn {} "$prefix/runtime/" \;
 
-# The package's CMake files name two archives that it does not ship (both libraries are header-only)
-# and the system's include folder absolutely.
+# The package's CMake files name two archives that it does not ship (both libraries are header-only), and the
+# absolute path of the system's include folder.
 targets=$(find "$prefix/usr" -name KokkosTargets.cmake)
 libdir=$(dirname "$(find "$prefix/usr" -name 'libkokkoscore.so' | head -n 1)")
 for missing in libkokkosalgorithms.a libkokkossimd.a; do
@@ -45,8 +45,8 @@ sed -i 's#/usr/include/kokkos#${_IMPORT_PREFIX}/include/kokkos#g' "$targets"
 
 loader=$(basename "$(find "$prefix/runtime" -name 'ld-linux*.so*' | head -n 1)")
 cat >"$prefix/toolchain.cmake" <<TOOLCHAIN
-# Written by fetch_kokkos.sh. The libraries need a newer libc than this system's: executables load
-# the one beside them. RPATH rather than RUNPATH, so that libm and libstdc++ come from there too.
+# Written by fetch_kokkos.sh. The libraries need a newer libc than this system's, so executables load the libc in
+# runtime/. RPATH instead of RUNPATH, so that libm and libstdc++ come from there too.
 set(Kokkos_ROOT "$prefix/usr" CACHE PATH "Kokkos installation")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
     "-Wl,--allow-shlib-undefined,--disable-new-dtags,-rpath,$prefix/runtime,--dynamic-linker=$prefix/runtime/$loader")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fetches uPlot, the curves of report.html, by npm into PREFIX: a fixed version, whose checksum is the one that
-# the registry published. Without it reports show the same plots as pictures.
+# Fetches uPlot, which draws the curves of report.html, by npm into PREFIX: a fixed version, with the checksum that the
+# registry published. Without it reports show the same plots as pictures.
 #
 #   cmake/fetch_uplot.sh PREFIX      -> PREFIX/uPlot.iife.min.js, uPlot.min.css, LICENSE
 set -euo pipefail
@@ -26,6 +26,6 @@ npm pack --silent "uplot@$version" >/dev/null
 echo "$sha512  uplot-$version.tgz" | sha512sum --check --quiet
 tar -xzf "uplot-$version.tgz"
 mkdir -p "$prefix"
-# The licence last: with it the folder is complete.
+# The licence is copied last: it marks a complete folder.
 cp package/dist/uPlot.iife.min.js package/dist/uPlot.min.css package/LICENSE "$prefix/"
 say "uPlot $version is in $prefix"

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# What the device compiler gave each kernel of ours: registers, stack and spills a thread.
+# Lists the registers, stack and spills a thread of each of myowave's kernels.
 #
 #   cmake/kernel_resources.sh <LOG
 #
-# LOG is what nvcc -Xptxas -v and clang++ -Rpass-analysis=kernel-resource-usage print; its lines
-# `source: NAME` head the rows that follow. Fails where a kernel of the excitation step has a stack
-# frame (AMD: scratch) or spills: the step is bound by memory bandwidth, and both are traffic that
-# the model does not ask for. Fails also where there is no such kernel, for then nothing was checked.
+# LOG is the output of nvcc -Xptxas -v or clang++ -Rpass-analysis=kernel-resource-usage; a line `source: NAME` is the
+# heading of the rows after it. Fails if a kernel of the excitation step has a stack frame (AMD: scratch) or spills:
+# the step is bound by memory bandwidth, and both are extra traffic. Fails also if there is no such kernel, because
+# then nothing was checked.
 #
-# AMD: registers are VGPRs, a number a thread; AGPRs are those used beside them; SGPRs hold what is
-# one value for a whole wave, and the spilled ones live in lanes of VGPRs, not in memory (where they
-# did, there would be scratch), so they are told and not judged; waves are those that fit on a SIMD.
+# AMD: registers are VGPRs, one value a thread; AGPRs are used beside them; SGPRs hold one value for a whole wave.
+# Spilled SGPRs go to lanes of VGPRs, not to memory (that would be scratch), so they are listed and not judged. Waves:
+# how many fit on a SIMD.
 set -euo pipefail
 
 c++filt | awk '

@@ -1,6 +1,7 @@
 # shellcheck shell=bash
-# Debian packages to unpack, not to install: apt with a state of its own, whose only source are named suites of the
-# archive that this machine's apt already uses. Needs no root and leaves the system as it is. To be sourced.
+# Downloads Debian packages to unpack them, not to install them: apt with its own state folder. Its only sources are the
+# named suites of the archive that this machine's apt already uses. Needs no root and does not change the system. To be
+# sourced.
 #
 #   private_apt_archive                              prints the archive, or fails
 #   private_apt_open FOLDER ARCHIVE SUITE...         reads the suites' package indices into FOLDER

@@ -20,10 +20,10 @@ function(write_package folder name version compatible)
 endfunction()
 
 set(find_kokkos -S ${SOURCE}/cmake/find_kokkos)
-expect("no such backend" "has the backends .* and not HIP, which this preset is for\\. To mend it: .*-DKokkos_ENABLE_HIP=ON -DKokkos_ARCH_AMD_GFX942=ON.*--list-presets"
+expect("no such backend" "has the backends .* and not HIP, which this preset is for\\. To fix it: .*-DKokkos_ENABLE_HIP=ON -DKokkos_ARCH_AMD_GFX942=ON.*--list-presets"
        ${find_kokkos} -DKokkos_ROOT=${KOKKOS} -DMYOWAVE_BACKEND=HIP "-DMYOWAVE_GPU=AMD_GFX942;AMD_GFX942_APU")
 write_package(${WORK}_old Kokkos 3.4.01 FALSE "")
-expect("an old one" "needs Kokkos >= 4\\.6\\. Looked at and not taken \\(version [^)]*3\\.4\\.01.*KokkosConfig\\.cmake.*-DKokkos_ROOT=PREFIX"
+expect("an old one" "needs Kokkos >= 4\\.6\\. Found but not accepted \\(version [^)]*3\\.4\\.01.*KokkosConfig\\.cmake.*-DKokkos_ROOT=PREFIX"
        ${find_kokkos} -DKokkos_ROOT=${WORK}_old -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF)
 
 set(ampere "set(Kokkos_DEVICES CUDA SERIAL)\nset(Kokkos_ARCH AMPERE80)\n")

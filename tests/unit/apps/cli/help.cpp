@@ -1,3 +1,4 @@
+// `myowave help` shows every section that a user of the command reads.
 #include "apps/cli/help.hpp"
 
 #include <fmt/format.h>

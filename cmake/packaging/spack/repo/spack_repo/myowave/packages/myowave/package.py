@@ -11,10 +11,10 @@ class Myowave(CMakePackage, CudaPackage, ROCmPackage):
 
     license("BSD-3-Clause")
 
-    # The sources have no address of their own: `develop` in the environments points to them.
+    # The recipe has no URL of the sources: `develop` in the environments points to them.
     version("main")
 
-    # Kokkos' default is the first of those that it has, and it is where the excitation runs.
+    # The excitation runs on Kokkos' default backend, the first of these that it has.
     backends = {
         "cuda": "CUDA",
         "rocm": "HIP",
