@@ -2,7 +2,7 @@
 //   launch|threads       rigid steps only, ten a call as between two samples: one launch for all members, or
 //                        one thread a member
 //   rigid|contracting    whole runs as in a sweep, with everything that observes them
-#include "solver/ensemble.hpp"
+#include "solver/run/ensemble.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
 #include "kernels/tissue/tiled_step.hpp"
-#include "solver/run.hpp"
+#include "solver/run/run.hpp"
 
 namespace myowave::bench {
 namespace {

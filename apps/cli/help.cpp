@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array topics = {
     HelpTopic{"tutorial", "from the first spiral to a sweep and its report, in ten minutes",
-              "apps/tutorial.md", ""},
+              "apps/cli/tutorial.md", ""},
     HelpTopic{"commands", "all commands, a scene by example, where the results are", "apps/README.md", ""},
     HelpTopic{"usage", "all options, exit statuses, error messages", "apps/cli/README.md", ""},
     HelpTopic{"model", "the equations", "solver/MODEL.md", ""},

@@ -151,9 +151,9 @@ class Sizes(unittest.TestCase):
 
     def test_an_exception_holds_wherever_the_file_is_and_only_while_it_is_needed(self):
         self.write("solver/run/run.cpp", 401)
-        self.expect(too_long=["solver/run.cpp"])
+        self.expect(too_long=["solver/run/run.cpp"])
         self.write("solver/run/run.cpp", 400)
-        self.expect("solver/run.cpp is no longer too long", too_long=["solver/run.cpp"])
+        self.expect("solver/run/run.cpp is no longer too long", too_long=["solver/run/run.cpp"])
         self.function(61)
         self.expect(too_long=["bench/main.cpp:main"])
         self.function(60)

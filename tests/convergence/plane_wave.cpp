@@ -1,5 +1,5 @@
-// Schemes for Eqs 22a, b on a plane wave, as plain loops: error against the number of stencil evaluations.
-// `--gtest_filter=*Table*` prints the table of the documentation.
+// Schemes for Eqs 22a, b on a plane wave, as plain loops: how far off they are for how many looks at the
+// neighbours. `--gtest_filter=*Table*` prints what solver/README.md shows.
 #include <gtest/gtest.h>
 
 #include <array>

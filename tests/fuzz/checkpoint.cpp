@@ -1,6 +1,6 @@
 // Checkpoints: any bytes are a checkpoint or are refused with one line, even with right checksums; and any
 // bytes are a state or a StateMismatch.
-#include "solver/checkpoint.hpp"
+#include "solver/run/checkpoint.hpp"
 
 #include <xxhash.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace myowave;
 
-constexpr std::size_t header_size = 80, header_checksum = 72;  // bytes, solver/checkpoint.cpp
+constexpr std::size_t header_size = 80, header_checksum = 72;  // bytes, solver/run/checkpoint.cpp
 
 void put_checksum(std::vector<std::byte>& bytes, std::size_t begin, std::size_t end) {
   const std::uint64_t sum = XXH3_64bits(bytes.data() + begin, end - begin);

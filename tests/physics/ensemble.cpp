@@ -1,6 +1,6 @@
 // A member of an ensemble is bitwise identical to the run alone, for any other members, order and number of
 // threads.
-#include "solver/ensemble.hpp"
+#include "solver/run/ensemble.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "solver/error.hpp"
-#include "solver/run.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -1,5 +1,5 @@
 // Equilibria of non-uniform sheets: properties for any tension.
-#include "solver/equilibrium.hpp"
+#include "solver/mechanics/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "kernels/elastic/assemble.hpp"
-#include "solver/equibiaxial.hpp"
-#include "solver/mesh.hpp"
-#include "solver/sparse_system.hpp"
+#include "solver/mechanics/equibiaxial.hpp"
+#include "solver/mechanics/mesh.hpp"
+#include "solver/mechanics/sparse_system.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {

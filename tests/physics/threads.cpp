@@ -14,7 +14,7 @@
 namespace myowave {
 namespace {
 
-// FNV-1a hash of the values' bits.
+// FNV-1a of the bits.
 std::uint64_t hash(std::initializer_list<const std::vector<double>*> fields) {
   std::uint64_t h = 0xcbf29ce484222325;
   for (const auto* field : fields)

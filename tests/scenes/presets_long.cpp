@@ -1,4 +1,4 @@
-// The documented errors of the presets, on one spiral of 150 x 150 length units.
+// What README says of the presets, on one spiral of 150 x 150 length units.
 #include <gmock/gmock.h>
 
 #include "tests/support/scene_run.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene_file.hpp"
-#include "apps/sweep_file.hpp"
+#include "apps/input/scene_file.hpp"
+#include "apps/sweep/sweep_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {

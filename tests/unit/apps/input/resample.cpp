@@ -1,12 +1,12 @@
 // A field and an initial state on another grid of the same sheet.
-#include "apps/resample.hpp"
+#include "apps/input/resample.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/initial_state.hpp"
+#include "apps/input/initial_state.hpp"
 
 namespace myowave::apps {
 namespace {

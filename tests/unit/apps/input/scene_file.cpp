@@ -1,5 +1,5 @@
 // The meaning of valid scene files. Invalid ones: tests/faults/bad_scenes.cpp.
-#include "apps/scene_file.hpp"
+#include "apps/input/scene_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/memory.hpp"
-#include "apps/schema.hpp"
-#include "solver/error.hpp"
-#include "solver/make_plan.hpp"
-#include "solver/run.hpp"
+#include "apps/base/memory.hpp"
+#include "apps/input/schema.hpp"
+#include "solver/base/error.hpp"
+#include "solver/run/make_plan.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

@@ -1,15 +1,15 @@
 // Runs in separate processes: their files, their order, and the effect of a failure on the others.
-#include "apps/run_jobs.hpp"
+#include "apps/paper/run_jobs.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "apps/run_results.hpp"
-#include "apps/scene_file.hpp"
+#include "apps/results/run_results.hpp"
+#include "apps/input/scene_file.hpp"
 #include "myowave_version.hpp"
-#include "solver/error.hpp"
+#include "solver/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {
@@ -116,7 +116,7 @@ TEST(RunJobs, TheNumberOfParallelRunsChangesNoResult) {
               RunResults(three.path() / "runs" / job.name).last_frame().V);
 }
 
-TEST(RunJobs, RefusesJobsThatCannotStart) {
+TEST(RunJobs, RefusesWhatCannotBegin) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(run({{"a", small_scene().text(), {"b"}}}, folder.path()), solver::InputError);
   EXPECT_THROW(run({{"a", small_scene().text(), {"b"}}, {"b", small_scene().text(), {"a"}}}, folder.path()),

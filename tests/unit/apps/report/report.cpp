@@ -1,11 +1,11 @@
 // report.html of folders made by hand: shows what exists, reports what is missing or broken.
-#include "apps/report.hpp"
+#include "apps/report/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/report_run.hpp"
-#include "solver/error.hpp"
+#include "apps/report/report_run.hpp"
+#include "solver/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {

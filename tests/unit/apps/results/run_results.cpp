@@ -1,12 +1,12 @@
 // Reading the results of a run.
-#include "apps/run_results.hpp"
+#include "apps/results/run_results.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "solver/error.hpp"
+#include "solver/base/error.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 

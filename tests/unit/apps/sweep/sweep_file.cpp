@@ -1,13 +1,13 @@
 // Sweep files: the runs they make, and the errors of invalid ones.
-#include "apps/sweep_file.hpp"
+#include "apps/sweep/sweep_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <set>
 
-#include "apps/scene_file.hpp"
-#include "solver/error.hpp"
+#include "apps/input/scene_file.hpp"
+#include "solver/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::apps {
@@ -222,7 +222,7 @@ TEST(SweepFile, RefusesInvalidFiles) {
 
 // The shipped sweeps are valid and have as many runs as their first lines say.
 TEST(SweepFile, ShippedSweeps) {
-  const std::string folder = MYOWAVE_SOURCE_DIR "/apps/sweeps/";
+  const std::string folder = MYOWAVE_SOURCE_DIR "/apps/scenes/sweeps/";
   const auto fig11 = read_sweep(folder + "breakup_mu1.toml");
   EXPECT_EQ(fig11.runs.size(), 80u);
   EXPECT_TRUE(fig11.pairs);

@@ -1,5 +1,5 @@
 // Records of a sweep: reading them back, and the handling of damaged ones.
-#include "apps/sweep_records.hpp"
+#include "apps/sweep/sweep_records.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -11,9 +11,9 @@
 #include <fstream>
 #include <thread>
 
-#include "apps/sweep_file.hpp"
-#include "apps/sweep_slurm.hpp"
-#include "apps/sweep_table.hpp"
+#include "apps/sweep/sweep_file.hpp"
+#include "apps/sweep/sweep_slurm.hpp"
+#include "apps/sweep/sweep_table.hpp"
 #include "myowave_version.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"

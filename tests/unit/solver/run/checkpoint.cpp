@@ -1,5 +1,5 @@
 // Checkpoint files: the last two remain, and damaged ones are reported and not used.
-#include "solver/checkpoint.hpp"
+#include "solver/run/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <optional>
 
-#include "solver/archive.hpp"
+#include "solver/base/archive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace myowave::solver {
