@@ -441,7 +441,7 @@ TEST_F(Executable, check_looks_into_the_file_of_the_initial_state) {
 }
 
 TEST_F(Executable, a_run_refused_at_its_start_leaves_no_folder) {
-  // Past the stability bound of the rigid sheet, which the file alone does not tell.
+  // Past the stability bound of the rigid sheet, which only the run checks.
   const std::string scene = file("unstable.toml", "grid.n = 11\ntime.dt = 0.1");
   const std::string out = (folder_ / "out").string();
   const test::Outcome outcome = test::run_myowave({"run", scene, "--out", out});

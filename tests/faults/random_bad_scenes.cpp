@@ -39,7 +39,7 @@ const std::string file_name = "bad.toml";
 struct BadScene {
   std::string text;
   std::vector<std::string> overrides;
-  std::string place;  // what a line of the message begins with: "bad.toml:3:"; empty: any place in the file
+  std::string place;  // start of a line of the message: "bad.toml:3:"; empty: any place in the file
 };
 
 std::string at_line(int line) { return fmt::format("{}:{}:", file_name, line); }
@@ -163,7 +163,7 @@ BadScene malformed_override(Draw& draw, SceneText scene) {
 // ---- wrong names and tables -----------------------------------------------------------------------------
 
 std::string unknown_word(Draw& draw) {
-  std::string word = "x";  // no key or section begins so
+  std::string word = "x";  // no key or section starts with it
   for (int n = draw.integer(1, 12); n > 0; --n) word += static_cast<char>('a' + draw.integer(0, 25));
   return word;
 }
@@ -416,7 +416,7 @@ std::string start_of(const std::string& text) {
   return text.size() < 3000 ? text : text.substr(0, 3000) + " ...";
 }
 
-// A line of the message begins with the place.
+// A line of the message starts with the place.
 void expect_refusal(const std::string& message, const std::string& place) {
   if (place.empty()) {
     EXPECT_THAT(message, ContainsRegex(file_name + ":[0-9]+:[0-9]+: ."));

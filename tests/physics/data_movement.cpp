@@ -188,7 +188,7 @@ TYPED_TEST(DataMovement, StepsAllocateCopyAndWaitForNothing) {
     };
     sheet.advance(interval);  // makes room for the probes
     expect_nothing(2, 8);     // while the stimulus is on
-    sheet.advance(interval);  // makes room for the rows on the way of several steps a launch
+    sheet.advance(interval);  // allocates scratch rows for several steps a launch
     expect_nothing(interval / 4, interval);
     expect_nothing(interval / 4, interval);
   }

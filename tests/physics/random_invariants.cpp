@@ -113,7 +113,7 @@ double stimulated(const solver::Stimulus& stimulus, const solver::GridSettings& 
   return sum;
 }
 
-// Steps of the run that begin during a pulse.
+// Steps of the run that start during a pulse.
 int stimulated_steps(const solver::Stimulus& stimulus, const Scene& scene) {
   int count = 0;
   for (std::int64_t step = 0; step < steps_of(scene.time.t_end, scene); ++step) {

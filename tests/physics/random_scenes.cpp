@@ -17,8 +17,8 @@ namespace {
 using solver::InitialState;
 using solver::Scene;
 
-// What holds of the scene's own frames; empty where the sheet deforms unevenly on the way, where steps may be
-// divided, or where the intervals grow without end.
+// Bounds for the scene's frames. Empty if the sheet deforms unevenly during the run, if steps may be divided,
+// or if the intervals grow without limit.
 std::optional<StateBox> bounds_of(const Scene& scene, const InitialState& initial, const Watch& watch) {
   if (scene.on_unstable == solver::OnUnstable::substep) return std::nullopt;
   StateBox box(initial);

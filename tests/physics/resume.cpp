@@ -106,7 +106,7 @@ solver::Scene spiral(bool contracts) {
   scene.excitation.mu1 = 0.1;
   if (contracts) {
     scene.mechanics.emplace();
-    scene.mechanics->interval = 35;  // of no look's multiple
+    scene.mechanics->interval = 35;  // not a multiple of a sampling interval
   }
   scene.initial.type = solver::InitialSettings::Type::broken_front;
   scene.output.every = 4;

@@ -129,7 +129,7 @@ TEST(RunInvariants, Float32FollowsFloat64) {
     // a node whose V crosses the tension's threshold one step earlier or later is off by (1 - 0.1) Ta dt
     EXPECT_TRUE(all_close(rounded.state.Ta, exact.state.Ta, 61, {.absolute = 0.02}));
     EXPECT_TRUE(all_close(rounded.sink.nodes, exact.sink.nodes, 2, {.absolute = 1e-5}));
-    EXPECT_GT(*std::max_element(exact.state.V.begin(), exact.state.V.end()), 0.5) << "activity has died";
+    EXPECT_GT(*std::max_element(exact.state.V.begin(), exact.state.V.end()), 0.5) << "the waves died";
   }
 }
 
@@ -246,7 +246,7 @@ TEST(RunInvariants, AStateThatBlowsUpIsReportedWithinAnInterval) {
   Scene scene = spiral(21);
   scene.time.t_end = 50;
   for (const double start : {3.96, 3.98}) {
-    scene.stimuli = {lightning(start)};  // step 198 or 199; a look at every 100
+    scene.stimuli = {lightning(start)};  // step 198 or 199; a check every 100
     const auto message = message_of<solver::NumericalFailure>(scene, solver::make_initial_state(scene));
     EXPECT_THAT(message, HasSubstr("t = 4 t.u.: V is outside of"));
     EXPECT_THAT(message, HasSubstr("row 7, column 11"));
@@ -255,7 +255,7 @@ TEST(RunInvariants, AStateThatBlowsUpIsReportedWithinAnInterval) {
   EXPECT_THAT(message_of<solver::NumericalFailure>(scene, solver::make_initial_state(scene)),
               HasSubstr("t = 4 t.u.: the excitation is not finite"));
 
-  // with mechanics the looks are at its solves; what is not finite must not reach them
+  // with mechanics the checks come before its solves, which must not get non-finite values
   scene.mechanics.emplace();
   scene.mechanics->interval = 30;
   scene.stimuli = {lightning(1.76)};
@@ -277,8 +277,7 @@ TEST(RunInvariants, SummaryReportsTheProgressOfAFailedRun) {
   EXPECT_EQ(sink.tip_samples.back().t, 3);
 }
 
-// A precondition is a run of its own: without stimuli and mechanics, with its own parameters, and
-// the clock starts after it.
+// A precondition is a separate run before t = 0, without stimuli and mechanics, with its own parameters.
 TEST(RunInvariants, PreconditionsComeBeforeTimeZero) {
   Scene scene = spiral(41);
   scene.time.t_end = 6;

@@ -82,7 +82,7 @@ TEST(Sampling, StartsAtTheFirstMultipleAndEndsWithTheRun) {
   scene.output.from = 1e300;
   const test::RecordedRun late = test::recorded_run(scene);
   EXPECT_EQ(times_of(late.sink.areas), (std::vector<double>{2}));
-  EXPECT_FALSE(late.sink.V.empty()) << "the state at the end is there for a run that goes on from it";
+  EXPECT_FALSE(late.sink.V.empty()) << "the last state is written for runs that start from it";
   EXPECT_EQ(late.sink.tip_samples.size(), 3) << "tips are not shown every `every`";
 }
 
@@ -155,7 +155,7 @@ TEST(Sampling, MapOfAPacedSheetHasThePeriodOfTheStimulus) {
     EXPECT_EQ(maps.beats[n], 10);
     EXPECT_NEAR(maps.period[n], 40, 0.01);
     EXPECT_NEAR(maps.period[n], run.summary.observables.period.mean, 0.01);
-    EXPECT_NEAR(maps.period_sd[n], 0, 0.03) << "the beats settle, and looks are 0.4 apart";
+    EXPECT_NEAR(maps.period_sd[n], 0, 0.03) << "the beats settle, and samples are 0.4 apart";
     EXPECT_NEAR(maps.apd[n], run.summary.observables.apd90.mean, 0.02);
     EXPECT_TRUE(std::isnan(maps.conduction_velocity[n])) << "all at once is no front";
   }

@@ -48,8 +48,8 @@ TEST(MechanicsMap, ASpiralOf100KilopascalLosesEllipticity) {
   const auto result = solve_case(spiral(100, 10));
   EXPECT_EQ(result.outcome, MechanicsOutcome::not_elliptic);
   EXPECT_LT(result.margin, 0);
-  EXPECT_GT(result.report.not_elliptic, 0) << "what a run tells";
-  EXPECT_GT(result.report.min_J, 0) << "which alone would not tell";
+  EXPECT_GT(result.report.not_elliptic, 0) << "reported by a run";
+  EXPECT_GT(result.report.min_J, 0) << "J alone does not show it";
 }
 
 TEST(MechanicsMap, WithoutARestStateNothingIsIterated) {

@@ -122,7 +122,7 @@ fields = true
     rigid = work / "rigid"
     for folder, more in ((evil, []), (rigid, ["--set", "mechanics.on=false"])):
         subprocess.run([myowave, "run", scene, "--out", folder, "--force", "--quiet", *more], check=True)
-    # What a run may say in its own words.
+    # Text of a run that must be escaped.
     summary = json.loads((evil / "summary.json").read_text())
     summary["warnings"] = ["</script><script>document.title = 'owned'</script>"]
     (evil / "summary.json").write_text(json.dumps(summary))
@@ -209,7 +209,7 @@ def check_logs(browser, page):
     for entry in browser.log("performance"):
         message = json.loads(entry["message"])["message"]
         parameters = message["params"]
-        # The browser's own start page asks for its parts.
+        # The browser's start page requests files too.
         if message["method"] == "Network.requestWillBeSent" and parameters["documentURL"].startswith("file:"):
             asked.add(parameters["request"]["url"][:200])
     check(page.as_uri() in asked, "the log of requests holds the page")

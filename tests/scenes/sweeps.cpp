@@ -282,7 +282,7 @@ TEST_F(Sweeps, RepeatsRunsOfOtherRevisionsOnRequest) {
   EXPECT_EQ(reproducible("a"), expected);
 }
 
-// Fig 11's rigid spiral at mu1 = 0.1 (apps/paper/first_breakup.cpp): its state as a run of its own.
+// Fig 11's rigid spiral at mu1 = 0.1 (apps/paper/first_breakup.cpp): its initial state from a separate run.
 TEST_F(Sweeps, BreakUpIsThatOfTheFigure) {
   write("scene = \"" MYOWAVE_SOURCE_DIR
         "/apps/scenes/rigid_spiral.toml\"\n"

@@ -95,7 +95,7 @@ TEST(Tradeoff, OfAContractingSheetHasTheMechanicsDialsAndNamesTheNearestSetting)
   EXPECT_TRUE(setting(results, "balanced, mechanics.interval=40")["errors"].contains("shortening"));
 }
 
-// P15 at mu1 = 0.105: with the paper's steps, whose waves are 3 % slow, the spiral stays whole.
+// P15 at mu1 = 0.105: with the paper's steps, which make waves 3 % slow, the spiral does not break up.
 TEST(Tradeoff, ReportsWhenASpiralBreaksUp) {
   const Tradeoff made(R"(
 [grid]

@@ -1,4 +1,4 @@
-"""A sweep through Slurm: an array of 8 tasks on a cluster of this machine alone, made for the test.
+"""A sweep through Slurm: an array of 8 tasks on a cluster that consists of this machine, started by the test.
 
     run.py MYOWAVE WORK
 
@@ -24,7 +24,7 @@ from pathlib import Path
 TASKS = 8
 KILLED = 3  # the task that is killed
 RUNS = 16  # two a task
-WAIT_S = 240  # for anything that Slurm has to do; a busy machine takes long
+WAIT_S = 240  # for any action of Slurm; long, for busy machines
 
 SWEEP = """
 [scene.grid]
@@ -90,7 +90,7 @@ class Cluster:
         cpus = os.cpu_count()
         for folder in ("state", "spool"):
             (self.work / folder).mkdir()
-        # Requeued jobs wait until their former credential has ended: 120 s, were it not for cred_expire.
+        # Requeued jobs wait until their old credential expires; cred_expire shortens the default of 120 s.
         (self.work / "slurm.conf").write_text(f"""
 ClusterName=myowave_test
 SlurmctldHost={self.node}(127.0.0.1)
@@ -197,7 +197,7 @@ def run_array(cluster, script, folder):
     job = re.search(r"Submitted batch job (\d+)", cluster.command("sbatch", str(script))).group(1)
     shard = f"shard_{KILLED}_of_{TASKS}"
     records, lock = folder / "records" / f"{shard}.jsonl", folder / "locks" / f"{shard}.lock"
-    # In the middle of its work: something is done, and something is left.
+    # In the middle of its work: some runs are done, some are not.
     wait_until("a record of the task that is to be killed", lambda: records.exists() and records.stat().st_size > 0)
     process = int(re.search(r"process (\d+)", lock.read_text()).group(1))
     os.kill(process, signal.SIGKILL)
@@ -218,7 +218,7 @@ def run_array(cluster, script, folder):
 
 
 def table(myowave, folder):
-    """Rows, without the columns that tell time."""
+    """Rows, without the columns of times."""
     result = subprocess.run([myowave, "sweep", "table", str(folder), "--csv"], check=True, text=True, capture_output=True)
     assert result.stderr == "", result.stderr
     rows = list(csv.DictReader(io.StringIO(result.stdout)))

@@ -71,12 +71,12 @@ TEST(GridNoise, HandCases) {
   Values V(5 * 5, 0.0);
   V[2 * 5 + 2] = 1;  // one node, as a stimulus of radius 0 leaves it
   EXPECT_DOUBLE_EQ(range(5, 5, {V}).noise, 4.0 / 16);
-  // the corner of a block: what a broken front begins with
+  // the corner of a block, as at the start of a broken front
   EXPECT_DOUBLE_EQ(range(9, 9, {field(9, 9, [](int i, int j) { return i < 4 && j < 4 ? 1 : 0; })}).noise,
                    1.0 / 16);
 }
 
-// cos(q i) cos(q j), whose mirror images at all edges are its own continuation: sin^4(q / 2).
+// cos(q i) cos(q j) continues itself across mirrored edges; its noise is sin^4(q / 2).
 TEST(GridNoise, OfAWaveFallsWithTheFourthPowerOfItsWavenumber) {
   constexpr int n = 61;
   for (const int half_waves : {2, 5, 10, 20, 60}) {

@@ -146,7 +146,7 @@ TEST_P(TiledStep, SplitStepsAreSingleOnesToTheBit) {
   expect_single_split_steps<float>();
 }
 
-// The rows on the way and their order are then those of a device.
+// The rows in flight and their order are then those of a device.
 TEST_P(TiledStep, ADevicesLagIsSingleStepsToTheBit) {
   const auto conservative = loaded<double>(sheet);
   expect_equal(one_launch<double, 2>(sheet, conservative, plan),

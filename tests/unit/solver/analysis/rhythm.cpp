@@ -83,7 +83,7 @@ TEST(BeatRecorder, ProbesAreTakenTogether) {
   EXPECT_EQ(none.period().n, 0);
 }
 
-// V = A sin(pi s / W) for s in (0, W) after each multiple of the period, else 0; W and A by turns.
+// V = A sin(pi s / W) for s in (0, W) after each multiple of the period, else 0; W and A alternate.
 struct SinePulses {
   double period;
   std::vector<double> width, amplitude;
@@ -93,7 +93,7 @@ struct SinePulses {
     const double s = t - static_cast<double>(n) * period, W = width[n % width.size()];
     return s < W ? amplitude[n % amplitude.size()] * std::sin(std::numbers::pi * s / W) : 0;
   }
-  // Time from the begin of pulse n until V rises, falls through `level`.
+  // Time from the start of pulse n until V rises, or falls, through `level`.
   double rise(std::size_t n, double level) const {
     return width[n % width.size()] * std::asin(level / amplitude[n % amplitude.size()]) / std::numbers::pi;
   }
