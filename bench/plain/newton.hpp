@@ -1,7 +1,7 @@
 // The yardstick of the mechanics: Newton's method with a new tangent and a sparse factorisation in
 // every iteration, started from the last solution. Its loops are a copy that does not change. The physics of
-// one element (kernels/elastic/element.hpp), the pattern of the tangent (solver/mechanics/mesh.hpp) and the sparse
-// factorisation (solver/mechanics/linear/direct_solver.hpp) are the product's.
+// one element (kernels/elastic/element.hpp), the pattern of the tangent (solver/mechanics/mesh.hpp) and the
+// sparse factorisation (solver/mechanics/linear/direct_solver.hpp) are the product's.
 #pragma once
 
 #include <cstdint>

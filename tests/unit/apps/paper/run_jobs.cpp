@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/results/run_results.hpp"
 #include "apps/input/scene_file.hpp"
+#include "apps/results/run_results.hpp"
 #include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
