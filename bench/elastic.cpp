@@ -28,7 +28,7 @@ elastic::ElementGrid mesh_of(int elements) { return square_elements(cells_per_el
 
 elastic::Membrane membrane() {
   const solver::MechanicsSettings settings;
-  return {.passive = {.c1 = settings.c1, .c2 = settings.c2}, .load = {.follower = settings.p}};
+  return {.passive = settings, .load = {.follower = settings.p}};
 }
 
 // Empty if the residual of the assembled system equals the reference's.

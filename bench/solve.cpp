@@ -36,8 +36,7 @@ struct LinearSystem {
     solver::Equilibrium<ExecutionSpace> equilibrium(ExecutionSpace(), mesh.grid, settings);
     equilibrium.solve(ExecutionSpace(), Ta, 0);
     solver::SparseSystem<ExecutionSpace> system(ExecutionSpace(), mesh);
-    const elastic::Membrane membrane{.passive = {.c1 = settings.c1, .c2 = settings.c2},
-                                     .load = {.follower = settings.p}};
+    const elastic::Membrane membrane{.passive = settings, .load = {.follower = settings.p}};
     system.assemble(ExecutionSpace(), membrane, mesh.grid, equilibrium.nodes(), Ta);
     const auto tangent = system.tangent(0);
     values.assign(tangent.begin(), tangent.end());

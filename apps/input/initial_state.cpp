@@ -59,16 +59,16 @@ solver::Scene settling_scene(int rows, int columns) {
 
 // Every number that the result depends on.
 std::string definition(const solver::Scene& scene) {
-  const auto& [a, b, k, eps, mu1, mu2, C_m, D] = scene.excitation;
+  const solver::ExcitationSettings& cell = scene.excitation;
   const auto& [law, k_Ta, eps_below, eps_above, threshold] = scene.tension;
   const auto& [rows, columns, dx] = scene.grid;
   return fmt::format(
       "settled spiral: {} x {} nodes, dx {}, dt {}, t {}; a {}, b {}, k {}, eps {}, mu1 {}, mu2 {}, C_m {}, "
       "D {}; "
       "k_Ta {}, eps_T {} {} at {}; broken front {} {} [{}, {}]",
-      rows, columns, dx, scene.time.dt, scene.time.t_end, a, b, k, eps, mu1, mu2, C_m, D, k_Ta, eps_below,
-      eps_above, threshold, scene.initial.width, scene.initial.r0, scene.initial.offset[0],
-      scene.initial.offset[1]);
+      rows, columns, dx, scene.time.dt, scene.time.t_end, cell.a, cell.b, cell.k, cell.eps, cell.mu1,
+      cell.mu2, cell.C_m, cell.D, k_Ta, eps_below, eps_above, threshold, scene.initial.width,
+      scene.initial.r0, scene.initial.offset[0], scene.initial.offset[1]);
 }
 
 InitialState cut(const InitialState& whole, int row0, int column0, int rows, int columns) {

@@ -21,7 +21,7 @@ constexpr double first_shift = 4, shift_growth = 4, shift_decay = 8, least_shift
 constexpr double first_ramp_part = 1.0 / 4, least_ramp_part = 1.0 / 64;
 
 elastic::Membrane membrane_of(const solver::MechanicsSettings& settings) {
-  elastic::Membrane membrane{.passive = {.c1 = settings.c1, .c2 = settings.c2}, .load = {}};
+  elastic::Membrane membrane{.passive = settings, .load = {}};
   if (settings.edges == solver::Edges::load)
     (settings.load == solver::Load::follower ? membrane.load.follower : membrane.load.dead) = settings.p;
   return membrane;

@@ -6,15 +6,18 @@
 
 #include <Kokkos_Macros.hpp>
 
+#include "kernels/cell/parameters.hpp"
+
 namespace myowave::cell {
 
 template <class Real>
-struct ActiveTension {
+struct ActiveTension : ActiveTensionParameters<Real> {
+  using Parameters = ActiveTensionParameters<Real>;
+  using Parameters::eps_above;
+  using Parameters::eps_below;
+  using Parameters::k_Ta;
+  using Parameters::threshold;
   static constexpr bool integrated = true;
-  Real k_Ta = Real(47.9);      // kPa, Table 1
-  Real eps_below = Real(1);    // 1/t.u.
-  Real eps_above = Real(0.1);  // 1/t.u.
-  Real threshold = Real(0.05);
 
   // dTa/dt, kPa/t.u.
   KOKKOS_FORCEINLINE_FUNCTION Real rate(Real V, Real Ta) const { return relaxation(V) * (k_Ta * V - Ta); }

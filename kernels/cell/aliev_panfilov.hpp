@@ -5,18 +5,19 @@
 
 #include <Kokkos_Macros.hpp>
 
+#include "kernels/cell/parameters.hpp"
+
 namespace myowave::cell {
 
-// All dimensionless but eps and mu1 (1/t.u.) and k (1/t.u.). Table 1 of the paper omits b; with
-// b = 0.1 the paper's periods and its turbulence are found.
 template <class Real>
-struct AlievPanfilov {
-  Real k = Real(8);
-  Real a = Real(0.1);
-  Real b = Real(0.1);
-  Real eps = Real(0.01);
-  Real mu1 = Real(0.12);
-  Real mu2 = Real(0.3);
+struct AlievPanfilov : AlievPanfilovParameters<Real> {
+  using Parameters = AlievPanfilovParameters<Real>;
+  using Parameters::a;
+  using Parameters::b;
+  using Parameters::eps;
+  using Parameters::k;
+  using Parameters::mu1;
+  using Parameters::mu2;
 
   // f(V, r): the reaction part of dV/dt, 1/t.u.
   KOKKOS_FORCEINLINE_FUNCTION Real excitation(Real V, Real r) const {

@@ -7,14 +7,10 @@
 // membrane closure S = 0 at C = I.
 #pragma once
 
+#include "kernels/elastic/parameters.hpp"
 #include "kernels/elastic/stress.hpp"
 
 namespace myowave::elastic {
-
-struct MooneyRivlin {
-  double c1 = 2;  // kPa, >= 0, Table 1
-  double c2 = 6;  // kPa, >= 0, Table 1
-};
 
 KOKKOS_FORCEINLINE_FUNCTION constexpr EnergyDerivatives passive_energy(const MooneyRivlin& law, double t,
                                                                        double A) {

@@ -123,7 +123,7 @@ double mean_of(const std::vector<Beat>& beats, double Beat::*value) {
 
 PacedCell aliev_panfilov_cell() {
   PacedCell cell;
-  cell.excitation = {.a = 0.15, .b = 0.15, .k = 8, .eps = 0.002, .mu1 = 0.2, .mu2 = 0.3};
+  cell.excitation = {{.k = 8, .a = 0.15, .b = 0.15, .eps = 0.002, .mu1 = 0.2, .mu2 = 0.3}};
   cell.dt = 0.001;
   return cell;
 }

@@ -24,11 +24,11 @@ inline constexpr tissue::Stencil stencil_of =
     std::is_same_v<Scheme, tissue::SplitStep> ? tissue::Stencil::nine_point : tissue::Stencil::five_point;
 
 template <class Real>
-Model<Real> make_model(const ExcitationSettings& e, const TensionSettings& t) {
-  return {{Real(e.k), Real(e.a), Real(e.b), Real(e.eps), Real(e.mu1), Real(e.mu2)},
-          {Real(t.k_Ta), Real(t.eps_below), Real(t.eps_above), Real(t.threshold)},
-          Real(e.D),
-          Real(1 / e.C_m)};
+Model<Real> make_model(const ExcitationSettings& excitation, const TensionSettings& tension) {
+  return {{excitation.cast<Real>()},
+          {{Real(tension.k_Ta), Real(tension.eps_below), Real(tension.eps_above), Real(tension.threshold)}},
+          Real(excitation.D),
+          Real(1 / excitation.C_m)};
 }
 
 // The same that takes its steps by another scheme.

@@ -10,7 +10,7 @@ namespace myowave::solver {
 
 double ellipticity_margin(const elastic::ElementGrid& grid, const MechanicsSettings& settings,
                           const Nodes<Kokkos::HostSpace>& nodes, const GaussTension<Kokkos::HostSpace>& Ta) {
-  const elastic::Membrane unloaded{.passive = {.c1 = settings.c1, .c2 = settings.c2}, .load = {}};
+  const elastic::Membrane unloaded{.passive = settings, .load = {}};
   double least = std::numeric_limits<double>::infinity();
   for (int e = 0; e < grid.elements(); ++e) {
     const auto element = elastic::element_nodes(grid, nodes, e);

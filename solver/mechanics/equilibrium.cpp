@@ -27,7 +27,7 @@ constexpr double first_ramp_part = 1.0 / 4;
 constexpr double least_ramp_part = 1.0 / 64;
 
 elastic::Membrane membrane_of(const MechanicsSettings& settings) {
-  elastic::Membrane membrane{.passive = {.c1 = settings.c1, .c2 = settings.c2}, .load = {}};
+  elastic::Membrane membrane{.passive = settings, .load = {}};
   if (settings.edges == Edges::load) {
     (settings.load == Load::follower ? membrane.load.follower : membrane.load.dead) = settings.p;
   }

@@ -11,6 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/cell/parameters.hpp"
+#include "kernels/elastic/parameters.hpp"
+
 namespace myowave::solver {
 
 struct GridSettings {
@@ -31,16 +34,9 @@ struct TimeSettings {
   StopOn stop_on{};
 };
 
-// Eqs 22a, b; Table 1 of the paper (b: see kernels/cell/aliev_panfilov.hpp).
-struct ExcitationSettings {
-  double a = 0.1;
-  double b = 0.1;
-  double k = 8.0;
-  double eps = 0.01;
-  double mu1 = 0.12;
-  double mu2 = 0.3;
-  double C_m = 1.0;
-  double D = 1.0;
+struct ExcitationSettings : cell::AlievPanfilovParameters<double> {
+  double C_m = 1.0;  // membrane capacitance
+  double D = 1.0;    // diffusion coefficient, length^2/t.u.
 };
 
 // Eqs 22c, 23.
@@ -66,10 +62,8 @@ enum class Preset { none, paper, fast, balanced, reference };
 // What a run does where its steps are unstable: end, or go back and take smaller ones.
 enum class OnUnstable { stop, substep };
 
-struct MechanicsSettings {
+struct MechanicsSettings : elastic::MooneyRivlin {
   int cells_per_element = 10;
-  double c1 = 2.0;  // kPa
-  double c2 = 6.0;  // kPa
   Load load = Load::follower;
   double p = 10.0;  // kN/m, positive stretches
   Edges edges = Edges::load;

@@ -195,6 +195,13 @@ std::vector<std::string> load_table(const std::vector<MechanicsCase>& cases,
   return lines;
 }
 
+MechanicsSettings loaded(Load load, double p, elastic::MooneyRivlin material = {}) {
+  MechanicsSettings settings{material};
+  settings.load = load;
+  settings.p = p;
+  return settings;
+}
+
 }  // namespace
 
 MapTable make_mechanics_load(const MapProgress& progress) {
@@ -203,7 +210,7 @@ MapTable make_mechanics_load(const MapProgress& progress) {
     for (const Load load : {Load::follower, Load::dead})
       for (const double p : loads)
         for (const double k_Ta : tensions)
-          cases.push_back({.pattern = pattern, .largest_Ta = k_Ta, .settings = {.load = load, .p = p}});
+          cases.push_back({.pattern = pattern, .largest_Ta = k_Ta, .settings = loaded(load, p)});
   MapTable table = make_table(
       empty_table(
           "mechanics_load",
@@ -222,7 +229,8 @@ MapTable make_mechanics_material(const MapProgress& progress) {
     for (const double p : {-10.0, 0.0, 3.0, 10.0})
       for (const double k_Ta : {20.0, 47.9})
         for (const double c2 : {6.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.001, 0.0})
-          if (c1 + c2 > 0) cases.push_back({.largest_Ta = k_Ta, .settings = {.c1 = c1, .c2 = c2, .p = p}});
+          if (c1 + c2 > 0)
+            cases.push_back({.largest_Ta = k_Ta, .settings = loaded(Load::follower, p, {c1, c2})});
   return make_table(
       empty_table("mechanics_material",
                   "Cold solves of 25 x 25 elements under a spiral arm of tension and a follower "

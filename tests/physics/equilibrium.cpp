@@ -44,7 +44,7 @@ struct Forces {
 
 Forces forces(const ElementGrid& grid, const MechanicsSettings& settings, const Nodes<Memory>& nodes,
               const GaussTension<Memory>& Ta) {
-  elastic::Membrane membrane{.passive = {settings.c1, settings.c2}, .load = {}};
+  elastic::Membrane membrane{.passive = settings, .load = {}};
   if (settings.edges == Edges::load) {
     (settings.load == Load::follower ? membrane.load.follower : membrane.load.dead) = settings.p;
   }

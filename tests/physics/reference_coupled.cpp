@@ -117,8 +117,7 @@ TEST(ReferenceCoupled, RigidStimulated) {
 
 TEST(ReferenceCoupled, OtherCellAndConduction) {
   solver::Scene scene = coupled_scene();
-  scene.excitation = {
-      .a = 0.13, .b = 0.11, .k = 7, .eps = 0.012, .mu1 = 0.07, .mu2 = 0.35, .C_m = 1.25, .D = 0.8};
+  scene.excitation = {{.k = 7, .a = 0.13, .b = 0.11, .eps = 0.012, .mu1 = 0.07, .mu2 = 0.35}, 1.25, 0.8};
   expect_product_is_reference(scene);
 }
 

@@ -17,7 +17,11 @@ using Space = Kokkos::DefaultExecutionSpace;
 using Memory = Space::memory_space;
 
 MechanicsCase spiral(double k_Ta, double p, double c1 = 2, double c2 = 6) {
-  return {.largest_Ta = k_Ta, .settings = {.c1 = c1, .c2 = c2, .p = p}};
+  MechanicsCase one{.largest_Ta = k_Ta};
+  one.settings.c1 = c1;
+  one.settings.c2 = c2;
+  one.settings.p = p;
+  return one;
 }
 
 TEST(MechanicsMap, ThePaperConverges) {

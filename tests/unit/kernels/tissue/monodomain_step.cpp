@@ -29,7 +29,7 @@ constexpr std::array sheets{Sheet{2, 2, 1}, Sheet{2, 7, 1}, Sheet{5, 33, 4}, She
                             Sheet{129, 67, 2}};
 
 const solver::ExcitationSettings excitation{
-    .a = 0.13, .b = 0.11, .k = 7, .eps = 0.012, .mu1 = 0.07, .mu2 = 0.35, .C_m = 1.25, .D = 0.8};
+    {.k = 7, .a = 0.13, .b = 0.11, .eps = 0.012, .mu1 = 0.07, .mu2 = 0.35}, 1.25, 0.8};
 const solver::TensionSettings tension;
 constexpr double dt = 0.02;
 

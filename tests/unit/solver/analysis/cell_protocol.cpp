@@ -15,7 +15,7 @@ using Capture = RestitutionPoint::Capture;
 // A cell whose V falls as exp(-t): V_t = -r V with r = 1, constant because eps = mu1 = 0.
 PacedCell decaying_cell(double dt) {
   PacedCell cell;
-  cell.excitation = {.a = 0.1, .b = 0.1, .k = 0, .eps = 0, .mu1 = 0};
+  cell.excitation = {{.k = 0, .a = 0.1, .b = 0.1, .eps = 0, .mu1 = 0}};
   cell.dt = dt;
   return cell;
 }
