@@ -60,7 +60,7 @@ solver::Scene settling_scene(int rows, int columns) {
 // Every number that the result depends on.
 std::string definition(const solver::Scene& scene) {
   const solver::ExcitationSettings& cell = scene.excitation;
-  const auto& [law, k_Ta, eps_below, eps_above, threshold] = scene.tension;
+  const auto [k_Ta, eps_below, eps_above, threshold] = solver::tension_parameters(scene.tension);
   const auto& [rows, columns, dx] = scene.grid;
   return fmt::format(
       "settled spiral: {} x {} nodes, dx {}, dt {}, t {}; a {}, b {}, k {}, eps {}, mu1 {}, mu2 {}, C_m {}, "

@@ -488,8 +488,9 @@ class SceneReader {
   }
 
   // An explicit step past 1/rate overshoots the tension it relaxes to.
-  void check_tension(const std::string& section, const solver::TensionSettings& tension) {
+  void check_tension(const std::string& section, const solver::TensionSettings& settings) {
     if (!fine({"time.dt", section + ".eps0", section + ".eps_below", section + ".eps_above"})) return;
+    const auto tension = solver::tension_parameters(settings);
     for (const auto& [name, rate] :
          {std::pair("eps_below", tension.eps_below), std::pair("eps_above", tension.eps_above)}) {
       if (rate * scene_.time.dt <= 1) continue;
@@ -508,7 +509,7 @@ class SceneReader {
       if (scene_.grid.rows != scene_.grid.columns)
         check_divides("rows", scene_.grid.rows, mechanics.cells_per_element);
     }
-    if (fine({"tension.law", "mechanics.contraction"}) && scene_.tension.law == "none" &&
+    if (fine({"tension.law", "mechanics.contraction"}) && scene_.tension.law == solver::TensionLaw::none &&
         mechanics.contraction)
       conflict(
           {"tension.law", "mechanics.contraction", "mechanics"},
@@ -644,7 +645,8 @@ class SceneReader {
         conflict({path + ".contraction"},
                  fmt::format("{}.contraction = true needs [mechanics]; this scene is rigid", path));
       }
-      if (fine({"tension.law", path + ".law"}) && one.contraction && one.tension.law == "none")
+      if (fine({"tension.law", path + ".law"}) && one.contraction &&
+          one.tension.law == solver::TensionLaw::none)
         conflict({path + ".contraction", path + ".law", "tension.law"},
                  fmt::format("{}.contraction = true needs a tension.law other than \"none\"", path));
       if (fine({"time.dt", path + ".duration"})) check_step_count(path + ".duration", one.duration);

@@ -65,25 +65,14 @@ Choice choice(std::vector<std::string_view> names, At at) {
           [at](Target& target, std::size_t value) { at(target) = static_cast<Enum>(value); }};
 }
 
-// Relaxation rates of the tension laws, 1/t.u. `delayed` peaks at 185 ms and shortens by 25 %
-// as Fig 2a shows; `printed` is Eq 23 with eps0 = 1; with `none` there is no Ta to relax.
-struct TensionLaw {
-  std::string_view name;
-  double eps_below, eps_above;
-};
-constexpr std::array<TensionLaw, 3> tension_laws{
-    {{"delayed", 1.0, 0.1}, {"printed", 1.0, 10.0}, {"none", 0.0, 0.0}}};
-
 Choice tension_law() {
   Choice law;
-  for (const TensionLaw& one : tension_laws) law.names.push_back(one.name);
-  law.get = [](const Target& target) -> std::size_t {
-    return std::ranges::find(tension_laws, target.tension.law, &TensionLaw::name) - tension_laws.begin();
-  };
+  for (const solver::NamedTensionLaw& one : solver::tension_laws) law.names.push_back(one.name);
+  law.get = [](const Target& target) { return static_cast<std::size_t>(target.tension.law); };
   law.set = [](Target& target, std::size_t index) {
-    target.tension.law = tension_laws[index].name;
-    target.tension.eps_below = tension_laws[index].eps_below;
-    target.tension.eps_above = tension_laws[index].eps_above;
+    target.tension.law = static_cast<solver::TensionLaw>(index);
+    target.tension.eps_below.reset();
+    target.tension.eps_above.reset();
   };
   return law;
 }
@@ -110,10 +99,18 @@ Choices stop_on() {
 
 Number tension_eps0() {
   const auto multiply_both = [](Target& target, double eps0) {
-    target.tension.eps_below *= eps0;
-    target.tension.eps_above *= eps0;
+    const auto rates = solver::tension_parameters(target.tension);
+    target.tension.eps_below = rates.eps_below * eps0;
+    target.tension.eps_above = rates.eps_above * eps0;
   };
   return {nullptr, multiply_both, positive};
+}
+
+// In place of the law's, which is in force where the key is not given.
+Number tension_rate(double cell::ActiveTensionParameters<double>::*rate,
+                    std::optional<double> solver::TensionSettings::*own) {
+  return {[rate](const Target& target) { return solver::tension_parameters(target.tension).*rate; },
+          [own](Target& target, double value) { target.tension.*own = value; }, not_negative};
 }
 
 Number output_every() {
@@ -146,6 +143,7 @@ Pair window() {
 std::vector<Section> make_schema() {
   // More nodes along a side than any machine holds; the bytes of such a sheet fit 64 bits.
   constexpr double most_nodes = 1e7;
+  using Rates = cell::ActiveTensionParameters<double>;
   return {
       {"grid",
        "The sheet: a rectangle of nodes, row i at X2 = i dx, column j at X1 = j dx.",
@@ -184,9 +182,9 @@ std::vector<Section> make_schema() {
         {"eps0", "", tension_eps0(), "Factor on both rates of the law.", "1"},
         {"k_Ta", "kPa", number(MYOWAVE_AT(tension.k_Ta), not_negative),
          "Tension at V = 1. Above 60 the sheet can lose ellipticity."},
-        {"eps_below", "1/t.u.", number(MYOWAVE_AT(tension.eps_below), not_negative),
+        {"eps_below", "1/t.u.", tension_rate(&Rates::eps_below, &solver::TensionSettings::eps_below),
          "Rate where V < threshold, in place of the law's.", "the law's"},
-        {"eps_above", "1/t.u.", number(MYOWAVE_AT(tension.eps_above), not_negative),
+        {"eps_above", "1/t.u.", tension_rate(&Rates::eps_above, &solver::TensionSettings::eps_above),
          "Rate where V >= threshold, in place of the law's.", "the law's"},
         {"threshold", "", number(MYOWAVE_AT(tension.threshold), any), "V at which the rate changes."}}},
       {"mechanics",

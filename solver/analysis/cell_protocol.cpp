@@ -27,7 +27,7 @@ class Cell {
     const auto [V, r, Ta] = state_;
     state_.V += cell_.dt * (model_.cell.excitation(V, r) + stimulus) * model_.inverse_C_m;
     state_.r += cell_.dt * model_.cell.recovery(V, r);
-    if (cell_.tension.law != "none") state_.Ta += cell_.dt * model_.tension.rate(V, Ta);
+    if (cell_.tension.law != TensionLaw::none) state_.Ta += cell_.dt * model_.tension.rate(V, Ta);
     ++steps_;
   }
 

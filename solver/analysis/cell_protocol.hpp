@@ -17,7 +17,7 @@ struct CellState {
 // A cell and the pulses that pace it: short ones that lift a resting V to 0.5.
 struct PacedCell {
   ExcitationSettings excitation;  // D plays no part
-  TensionSettings tension;        // law "none": Ta stays as it is
+  TensionSettings tension;        // law `none`: Ta stays as it is
   double dt = 0.02;               // t.u.; the paper's
   double amplitude = 2.5;         // I_s, 1/t.u.
   double duration = 0.2;          // t.u., of a pulse

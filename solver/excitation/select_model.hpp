@@ -26,7 +26,7 @@ inline constexpr tissue::Stencil stencil_of =
 template <class Real>
 Model<Real> make_model(const ExcitationSettings& excitation, const TensionSettings& tension) {
   return {{excitation.cast<Real>()},
-          {{Real(tension.k_Ta), Real(tension.eps_below), Real(tension.eps_above), Real(tension.threshold)}},
+          {tension_parameters(tension).cast<Real>()},
           Real(excitation.D),
           Real(1 / excitation.C_m)};
 }

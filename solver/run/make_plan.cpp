@@ -73,13 +73,13 @@ PlannedPart excitation(const Scene& scene, const Sizes& sizes) {
 
 PlannedPart active_tension(const Scene& scene, const Sizes& sizes) {
   PlannedPart part{.part = "active tension"};
-  if (scene.tension.law == "none") {
+  if (scene.tension.law == TensionLaw::none) {
     part.why = "tension.law = \"none\"";
   } else if (!has_tension(scene)) {
     part.why = "neither a contraction nor an output needs Ta (output.tension = false)";
   } else {
     part.active = true;
-    part.what = fmt::format("{} law, in the step of V and r", scene.tension.law);
+    part.what = fmt::format("{} law, in the step of V and r", row_of(scene.tension.law).name);
     part.why = contracts(scene) ? "it contracts the sheet" : "output.tension = true";
     part.device_bytes = sizes.nodes * (steps_in_tiles(metric_form(scene)) ? 2 : 1) * sizes.real;
   }

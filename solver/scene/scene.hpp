@@ -13,6 +13,7 @@
 
 #include "kernels/cell/parameters.hpp"
 #include "kernels/elastic/parameters.hpp"
+#include "solver/scene/tension_laws.hpp"
 
 namespace myowave::solver {
 
@@ -37,15 +38,6 @@ struct TimeSettings {
 struct ExcitationSettings : cell::AlievPanfilovParameters<double> {
   double C_m = 1.0;  // membrane capacitance
   double D = 1.0;    // diffusion coefficient, length^2/t.u.
-};
-
-// Eqs 22c, 23.
-struct TensionSettings {
-  std::string law = "delayed";  // "delayed" | "printed" | "none": no Ta
-  double k_Ta = 47.9;           // kPa
-  double eps_below = 1.0;       // 1/t.u., V below threshold
-  double eps_above = 0.1;       // 1/t.u., V at or above threshold
-  double threshold = 0.05;
 };
 
 enum class Load { follower, dead };
@@ -150,7 +142,7 @@ inline bool contracts(const Scene& scene) { return scene.mechanics && scene.mech
 
 // Ta is stored and computed.
 inline bool has_tension(const Scene& scene) {
-  return scene.tension.law != "none" && (contracts(scene) || scene.output.tension);
+  return scene.tension.law != TensionLaw::none && (contracts(scene) || scene.output.tension);
 }
 
 inline bool has_element_areas(const Scene& scene) { return scene.mechanics && scene.output.element_areas; }

@@ -139,7 +139,7 @@ TEST(Instability, ContractedSheetsAreValid) {
     Scene scene = spiral(61, 0.02, 30);
     scene.metric = metric;
     scene.mechanics.emplace().p = 30;
-    scene.tension = {.law = "printed", .k_Ta = 60, .eps_above = 10};
+    scene.tension = {.law = solver::TensionLaw::printed, .k_Ta = 60};
     scene.on_unstable = OnUnstable::substep;
     const Outcome outcome = run(scene);
     EXPECT_EQ(outcome.failure, "");
@@ -218,8 +218,7 @@ TEST(Instability, SubstepsHealIt) {
 Scene contracting(double dt, double t_end) {
   Scene scene = spiral(61, dt, t_end);
   scene.mechanics.emplace().interval = static_cast<int>(std::lround(0.8 / dt));
-  scene.tension.law = "printed";
-  scene.tension.eps_above = 10;
+  scene.tension.law = solver::TensionLaw::printed;
   scene.mechanics->p = 0;
   return scene;
 }

@@ -164,7 +164,7 @@ TEST(RandomInvariants, TurnedOrWithoutTensionAreBitwiseIdentical) {
     EXPECT_TRUE(turned(straight.state.r, scene.grid) == other.state.r);
     EXPECT_TRUE(turned(straight.state.Ta, scene.grid) == other.state.Ta);
 
-    scene.tension.law = solver::has_tension(scene) ? "none" : "delayed";
+    scene.tension.law = solver::has_tension(scene) ? solver::TensionLaw::none : solver::TensionLaw::delayed;
     const Result without = run(scene, initial);
     EXPECT_TRUE(straight.state.V == without.state.V && straight.state.r == without.state.r);
   });

@@ -88,8 +88,7 @@ TEST(ReferenceCoupled, Rigid) { expect_product_is_reference(rigid_scene()); }
 
 TEST(ReferenceCoupled, RigidPrintedTension) {
   solver::Scene scene = rigid_scene();
-  scene.tension.law = "printed";
-  scene.tension.eps_above = 10;
+  scene.tension.law = solver::TensionLaw::printed;
   expect_product_is_reference(scene);
 }
 
@@ -163,8 +162,7 @@ TEST_P(EveryCoupling, IsTheReference) {
   const auto& [metric, load, law] = GetParam();
   scene.metric = metric;
   scene.mechanics->load = load;
-  scene.tension.law = law;
-  scene.tension.eps_above = law == "printed" ? 10 : 0.1;
+  scene.tension.law = solver::tension_law(law);
   expect_product_is_reference(scene);
 }
 

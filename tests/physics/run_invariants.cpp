@@ -170,9 +170,9 @@ TEST(RunInvariants, WithoutTensionVAndRAreTheSame) {
   scene.stimuli.push_back({.start = 5, .amplitude = 0.5});
   for (const bool deforms : {false, true}) {
     if (deforms) scene.mechanics.emplace().contraction = false;
-    scene.tension.law = "delayed";
+    scene.tension.law = solver::TensionLaw::delayed;
     const test::RecordedRun with = test::recorded_run(scene);
-    scene.tension.law = "none";
+    scene.tension.law = solver::TensionLaw::none;
     const test::RecordedRun without = test::recorded_run(scene);
     EXPECT_EQ(without.state.V, with.state.V);
     EXPECT_EQ(without.state.r, with.state.r);
@@ -182,7 +182,7 @@ TEST(RunInvariants, WithoutTensionVAndRAreTheSame) {
                 ::testing::Not(::testing::Contains(HasSubstr("active tension"))));
     EXPECT_LT(solver::memory_bytes(scene), [&] {
       Scene other = scene;
-      other.tension.law = "delayed";
+      other.tension.law = solver::TensionLaw::delayed;
       return solver::memory_bytes(other);
     }());
   }
@@ -192,8 +192,7 @@ TEST(RunInvariants, ContractionPastTheStabilityBoundStopsTheRun) {
   Scene scene;
   scene.grid = {41, 41, 0.6};
   scene.time = {0.06, 30, 10};
-  scene.tension.law = "printed";
-  scene.tension.eps_above = 10;
+  scene.tension.law = solver::TensionLaw::printed;
   scene.tension.k_Ta = 55;
   scene.mechanics.emplace();
   scene.mechanics->interval = 10;

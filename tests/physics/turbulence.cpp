@@ -76,8 +76,8 @@ TEST(Turbulence, AColdStartReachesTheEnergyOfARamp) {
 
 struct Case {
   const char* name;
-  double p, eps_above;
-  const char* law;
+  double p;
+  solver::TensionLaw law;
 };
 class EveryLoad : public testing::TestWithParam<Case> {};
 
@@ -89,7 +89,6 @@ TEST_P(EveryLoad, RunsCoupledThroughTurbulence) {
   scene.mechanics.emplace();
   scene.mechanics->p = GetParam().p;
   scene.tension.law = GetParam().law;
-  scene.tension.eps_above = GetParam().eps_above;
   test::RecordingSink sink;
   solver::RunSummary summary;
   solver::run(scene, turbulent_state(), sink, summary);
@@ -100,10 +99,10 @@ TEST_P(EveryLoad, RunsCoupledThroughTurbulence) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Turbulence, EveryLoad,
-                         testing::Values(Case{"stretched", 10, 0.1, "delayed"},
-                                         Case{"unloaded", 0, 0.1, "delayed"},
-                                         Case{"compressed", -10, 0.1, "delayed"},
-                                         Case{"printed_law", 10, 10, "printed"}),
+                         testing::Values(Case{"stretched", 10, solver::TensionLaw::delayed},
+                                         Case{"unloaded", 0, solver::TensionLaw::delayed},
+                                         Case{"compressed", -10, solver::TensionLaw::delayed},
+                                         Case{"printed_law", 10, solver::TensionLaw::printed}),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace

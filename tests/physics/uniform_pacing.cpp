@@ -8,11 +8,11 @@ namespace myowave {
 namespace {
 
 // 60 beats; the summary's shortening is that of the last ten.
-solver::RunSummary pace(const std::string& law, double eps_below, double eps_above) {
+solver::RunSummary pace(solver::TensionLaw law) {
   solver::Scene scene;
   scene.grid = {11, 11, 0.6};
   scene.time = {0.02, 60 * 33.0, 10};
-  scene.tension = {law, 47.9, eps_below, eps_above, 0.05};
+  scene.tension.law = law;
   scene.mechanics.emplace();
   scene.mechanics->cells_per_element = 5;
   scene.mechanics->interval = 10;
@@ -29,12 +29,12 @@ solver::RunSummary pace(const std::string& law, double eps_below, double eps_abo
 }
 
 TEST(UniformPacing, ShorteningWithDelayedTension) {
-  const auto summary = pace("delayed", 1, 0.1);
+  const auto summary = pace(solver::TensionLaw::delayed);
   EXPECT_NEAR(summary.observables.shortening->first, 0.250, 0.003);
 }
 
 TEST(UniformPacing, ShorteningWithTensionAsPrinted) {
-  const auto summary = pace("printed", 1, 10);
+  const auto summary = pace(solver::TensionLaw::printed);
   EXPECT_NEAR(summary.observables.shortening->first, 0.324, 0.004);
 }
 

@@ -247,9 +247,10 @@ Values voltage_rate(const solver::ExcitationSettings& p, const Values& V, const 
   return rate;
 }
 
-ExcitationState euler_step(const solver::ExcitationSettings& p, const solver::TensionSettings& tension,
+ExcitationState euler_step(const solver::ExcitationSettings& p, const solver::TensionSettings& settings,
                            double dt, const ExcitationState& old, const Values& diffusion,
                            const Values& I_s) {
+  const auto tension = solver::tension_parameters(settings);
   const Values dV_dt = voltage_rate(p, old.V, old.r, diffusion, I_s);
   ExcitationState next = old;
   for (std::size_t n = 0; n < old.V.size(); ++n) {
@@ -262,8 +263,9 @@ ExcitationState euler_step(const solver::ExcitationSettings& p, const solver::Te
   return next;
 }
 
-ExcitationState split_step(const solver::ExcitationSettings& p, const solver::TensionSettings& tension,
+ExcitationState split_step(const solver::ExcitationSettings& p, const solver::TensionSettings& settings,
                            double dt, const ExcitationState& old, const Values& diffusion) {
+  const auto tension = solver::tension_parameters(settings);
   const auto f = [&](double V, double r) { return (-p.k * V * (V - p.a) * (V - 1) - r * V) / p.C_m; };
   ExcitationState next = old;
   for (std::size_t n = 0; n < old.V.size(); ++n) {

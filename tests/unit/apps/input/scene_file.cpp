@@ -41,7 +41,8 @@ TEST(scene_file, integers_serve_as_numbers) { EXPECT_EQ(scene("[mechanics]\np = 
 TEST(scene_file, the_tension_law_sets_the_rates) {
   const auto rates = [](std::string_view keys) {
     const Scene made = scene(std::string("[tension]\n") + std::string(keys));
-    return std::pair(made.tension.eps_below, made.tension.eps_above);
+    const auto tension = solver::tension_parameters(made.tension);
+    return std::pair(tension.eps_below, tension.eps_above);
   };
   EXPECT_EQ(rates(""), std::pair(1.0, 0.1));
   EXPECT_EQ(rates("law = 'delayed'"), std::pair(1.0, 0.1));
@@ -185,10 +186,10 @@ TEST(scene_file, paths_are_relative_to_the_file_and_of_set_to_the_working_direct
 }
 
 TEST(scene_file, set_takes_bare_and_quoted_strings_arrays_and_tables) {
-  EXPECT_EQ(scene("", {"tension.law=printed"}).tension.law, "printed");
-  EXPECT_EQ(scene("", {"tension.law=\"printed\""}).tension.law, "printed");
-  EXPECT_EQ(scene("", {"tension.law='printed'"}).tension.law, "printed");
-  EXPECT_EQ(scene("", {" tension.law = printed "}).tension.law, "printed");
+  EXPECT_EQ(scene("", {"tension.law=printed"}).tension.law, solver::TensionLaw::printed);
+  EXPECT_EQ(scene("", {"tension.law=\"printed\""}).tension.law, solver::TensionLaw::printed);
+  EXPECT_EQ(scene("", {"tension.law='printed'"}).tension.law, solver::TensionLaw::printed);
+  EXPECT_EQ(scene("", {" tension.law = printed "}).tension.law, solver::TensionLaw::printed);
   EXPECT_EQ(scene("", {"grid.n=[21,31]"}).grid.columns, 31);
   EXPECT_EQ(scene("", {"stimulus=[{amplitude=1},{amplitude=2}]"}).stimuli.at(1).amplitude, 2);
   EXPECT_EQ(scene("", {"initial.precondition={duration=3}"}).initial.preconditions.at(0).duration, 3);

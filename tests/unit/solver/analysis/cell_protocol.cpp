@@ -66,7 +66,7 @@ TEST(CellProtocol, DelayedTensionPeaksLongAfterThePotential) {
   const auto [V_peak, Ta_peak] = peaks(pace_cell(cell, 33, 50, 0.02));
   EXPECT_NEAR(V_peak, 1.9, 0.1);
   EXPECT_NEAR(Ta_peak, 18.5, 0.1);
-  cell.tension.law = "none";
+  cell.tension.law = TensionLaw::none;
   EXPECT_EQ(pace_cell(cell, 33, 1, 0.02).Ta.back(), 0);
 }
 
