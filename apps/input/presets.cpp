@@ -1,90 +1,107 @@
 #include "apps/input/presets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 
 namespace myowave::apps {
 namespace {
 
-using Sheet = PresetValue::Sheet;
+constexpr auto rigid = PresetValue::Sheet::rigid, elastic = PresetValue::Sheet::elastic;
 
-constexpr std::array paper{
-    PresetValue{"accuracy.dx", "0.6"},
-    PresetValue{"time.dt", "0.02"},
-    PresetValue{"accuracy.precision", "\"float64\""},
-    PresetValue{"accuracy.scheme", "\"euler\""},
-    PresetValue{"output.watch_every", "0.2"},
-    PresetValue{"feedback.time", "\"held\"", Sheet::elastic},
-    PresetValue{"mechanics.interval", "80", Sheet::elastic},
-    PresetValue{"mechanics.tolerance", "1e-8", Sheet::elastic},
-};
-
-// `first` and then `second`.
-template <std::size_t N, std::size_t M>
-constexpr std::array<PresetValue, N + M> joined(const std::array<PresetValue, N>& first,
-                                                const std::array<PresetValue, M>& second) {
-  std::array<PresetValue, N + M> result{};
-  std::ranges::copy(first, result.begin());
-  std::ranges::copy(second, result.begin() + N);
-  return result;
+// dt near dx^2 / (6 D), where the errors of the split scheme cancel. On a contracting sheet dx is that of the
+// front, which runs into what is stretched; elements of 6 length units have seven cells a side, or eight.
+std::vector<PresetValue> large_steps(const std::vector<PresetValue>& steps) {
+  std::vector<PresetValue> values{{"accuracy.precision", "\"float32\""},
+                                  {"accuracy.scheme", "\"split\""},
+                                  {"accuracy.on_unstable", "\"substep\"", elastic},
+                                  {"output.watch_every", "1.0"},
+                                  {"feedback.time", "\"quadratic\"", elastic}};
+  values.insert(values.end(), steps.begin(), steps.end());
+  return values;
 }
 
-constexpr std::array large_steps{
-    PresetValue{"accuracy.precision", "\"float32\""},
-    PresetValue{"accuracy.scheme", "\"split\""},
-    PresetValue{"accuracy.on_unstable", "\"substep\"", Sheet::elastic},
-    PresetValue{"output.watch_every", "1.0"},
-    PresetValue{"feedback.time", "\"quadratic\"", Sheet::elastic},
-};
-
-// dt near dx^2 / (6 D), where the errors of the split scheme go. On a contracting sheet dx is that of the
-// front, which runs into what is stretched; elements of 6 length units have seven cells a side, or eight.
-// Measured errors and speeds: apps/tradeoff/ACCURACY.md.
-constexpr auto fast = joined(large_steps, std::array{
-                                              PresetValue{"accuracy.dx", "1.15", Sheet::rigid},
-                                              PresetValue{"time.dt", "0.2", Sheet::rigid},
-                                              PresetValue{"accuracy.dx", "0.86", Sheet::elastic},
-                                              PresetValue{"time.dt", "0.125", Sheet::elastic},
-                                              PresetValue{"mechanics.interval", "16", Sheet::elastic},
-                                              PresetValue{"mechanics.tolerance", "1e-3", Sheet::elastic},
-                                          });
-
-constexpr auto balanced = joined(large_steps, std::array{
-                                                  PresetValue{"accuracy.dx", "0.75"},
-                                                  PresetValue{"time.dt", "0.08333333333333333"},
-                                                  PresetValue{"mechanics.interval", "20", Sheet::elastic},
-                                                  PresetValue{"mechanics.tolerance", "1e-4", Sheet::elastic},
-                                              });
-
-constexpr std::array reference{
-    PresetValue{"accuracy.dx", "0.3"},
-    PresetValue{"time.dt", "0.014285714285714285", Sheet::rigid},
-    PresetValue{"time.dt", "0.0125", Sheet::elastic},  // most contracted sheets bear it undivided
-    PresetValue{"accuracy.precision", "\"float64\""},
-    PresetValue{"accuracy.scheme", "\"split\""},
-    PresetValue{"accuracy.on_unstable", "\"substep\"", Sheet::elastic},
-    PresetValue{"output.watch_every", "0.2"},
-    PresetValue{"feedback.time", "\"quadratic\"", Sheet::elastic},
-    PresetValue{"mechanics.interval", "16", Sheet::elastic},
-    PresetValue{"mechanics.tolerance", "1e-10", Sheet::elastic},
-};
-
-constexpr std::array<Preset, 5> all{
-    {{"none", {}}, {"paper", paper}, {"fast", fast}, {"balanced", balanced}, {"reference", reference}}};
+// Measured errors and costs: `myowave help accuracy`.
+std::vector<Preset> make_presets() {
+  return {
+      {.name = "none", .doc = "the scene's own values"},
+      {.name = "paper",
+       .doc = "the paper's scheme and steps",
+       .values = {{"accuracy.dx", "0.6"},
+                  {"time.dt", "0.02"},
+                  {"accuracy.precision", "\"float64\""},
+                  {"accuracy.scheme", "\"euler\""},
+                  {"output.watch_every", "0.2"},
+                  {"feedback.time", "\"held\"", elastic},
+                  {"mechanics.interval", "80", elastic},
+                  {"mechanics.tolerance", "1e-8", elastic},
+                  {"mechanics.trigger", "0", elastic},
+                  {"mechanics.overlap", "false", elastic}},
+       .varied = true},
+      {.name = "fast",
+       .doc = "large steps for waves and their periods; does not predict break-up times",
+       .values = large_steps({{"accuracy.dx", "1.15", rigid},
+                              {"time.dt", "0.2", rigid},
+                              {"accuracy.dx", "0.86", elastic},
+                              {"time.dt", "0.125", elastic},
+                              {"mechanics.interval", "16", elastic},
+                              {"mechanics.tolerance", "1e-3", elastic}})},
+      {.name = "balanced",
+       .doc = "more accurate than `paper` at less cost",
+       .values = large_steps({{"accuracy.dx", "0.75"},
+                              {"time.dt", "0.08333333333333333"},
+                              {"mechanics.interval", "20", elastic},
+                              {"mechanics.tolerance", "1e-4", elastic}}),
+       .varied = true},
+      {.name = "reference",
+       .doc = "a fine grid and small steps, to compare the others with",
+       .values = {{"accuracy.dx", "0.3"},
+                  {"time.dt", "0.014285714285714285", rigid},
+                  {"time.dt", "0.0125", elastic},  // most contracted sheets bear it undivided
+                  {"accuracy.precision", "\"float64\""},
+                  {"accuracy.scheme", "\"split\""},
+                  {"accuracy.on_unstable", "\"substep\"", elastic},
+                  {"output.watch_every", "0.2"},
+                  {"feedback.time", "\"quadratic\"", elastic},
+                  {"mechanics.interval", "16", elastic},
+                  {"mechanics.tolerance", "1e-10", elastic}}},
+  };
+}
 
 }  // namespace
 
-std::span<const Preset> presets() { return all; }
-
-const Preset* find_preset(std::string_view name) {
-  const auto found = std::ranges::find(all, name, &Preset::name);
-  return found == all.end() ? nullptr : &*found;
+std::span<const Preset> presets() {
+  static const std::vector<Preset> table = make_presets();
+  return table;
 }
 
-const PresetValue* find_value(const Preset& preset, std::string_view key, bool elastic) {
-  const auto found = std::ranges::find_if(
-      preset.values, [&](const PresetValue& value) { return value.key == key && value.holds(elastic); });
+const Preset* find_preset(std::string_view name) {
+  const auto found = std::ranges::find(presets(), name, &Preset::name);
+  return found == presets().end() ? nullptr : &*found;
+}
+
+const PresetValue* find_value(const Preset& preset, std::string_view key, bool on_elastic_sheet) {
+  const auto found = std::ranges::find_if(preset.values, [&](const PresetValue& value) {
+    return value.key == key && value.holds(on_elastic_sheet);
+  });
   return found == preset.values.end() ? nullptr : &*found;
+}
+
+std::string presets_text() {
+  std::string text;
+  for (const Preset& one : presets())
+    text += fmt::format("{}`{}`: {}", text.empty() ? "" : "; ", one.name, one.doc);
+  return text;
+}
+
+std::string values_text(const Preset& preset) {
+  std::string text;
+  for (const auto& [key, value, sheet] : preset.values)
+    text += fmt::format("{}{}={}{}", text.empty() ? "" : ", ", key, value,
+                        sheet == rigid     ? " (rigid)"
+                        : sheet == elastic ? " (elastic)"
+                                           : "");
+  return text;
 }
 
 }  // namespace myowave::apps

@@ -1,8 +1,11 @@
-// Accuracy by one word: what `accuracy.preset` stands for.
+// Accuracy by one word: what each `accuracy.preset` stands for. A row of the table in presets.cpp is all that
+// a preset is: the schema, the documentation and the settings of `myowave tradeoff` follow from it.
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace myowave::apps {
 
@@ -12,17 +15,17 @@ struct PresetValue {
   std::string_view value;  // as TOML
   Sheet sheet = Sheet::any;
 
-  constexpr bool holds(bool elastic) const {
-    return sheet == Sheet::any || (sheet == Sheet::elastic) == elastic;
-  }
+  bool holds(bool elastic) const { return sheet == Sheet::any || (sheet == Sheet::elastic) == elastic; }
 };
 
 struct Preset {
   std::string_view name;
-  std::span<const PresetValue> values;
+  std::string_view doc;  // what it is for
+  std::vector<PresetValue> values{};
+  bool varied = false;  // `myowave tradeoff` also changes its dials one at a time
 };
 
-// In the order of solver::Preset, the first of which is none.
+// The first is `none`, the default, without values.
 std::span<const Preset> presets();
 
 // Null where there is none of this name.
@@ -30,5 +33,10 @@ const Preset* find_preset(std::string_view name);
 
 // What it gives the key on an elastic or a rigid sheet; null for nothing.
 const PresetValue* find_value(const Preset&, std::string_view key, bool elastic);
+
+// "`paper`: ...; `fast`: ...", every preset with its `doc`.
+std::string presets_text();
+// "time.dt=0.2 (rigid), ...", every value of one.
+std::string values_text(const Preset&);
 
 }  // namespace myowave::apps

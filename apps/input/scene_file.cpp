@@ -462,7 +462,7 @@ class SceneReader {
   // nearly as accurate, and so is up to a fifth more to be a whole part of the shortest interval of outputs.
   double dt_of_preset(double spacing) const {
     constexpr double a_fifth_more = 1.2, rounding = 1e-9;
-    const Preset& preset = presets()[static_cast<std::size_t>(scene_.preset)];
+    const Preset& preset = *find_preset(scene_.preset);
     const PresetValue& dx = *find_value(preset, "accuracy.dx", scene_.mechanics.has_value());
     const double finer = std::strtod(std::string(dx.value).c_str(), nullptr) / spacing;
     const double parts = finer * finer * scene_.excitation.D / scene_.excitation.C_m / a_fifth_more;

@@ -78,12 +78,21 @@ Choice tension_law() {
 }
 
 Choice preset() {
-  Choice choice{
-      {},
-      [](const Target& target) { return static_cast<std::size_t>(target.scene.preset); },
-      [](Target& target, std::size_t index) { target.scene.preset = static_cast<solver::Preset>(index); }};
+  Choice choice{{},
+                [](const Target& target) -> std::size_t {
+                  const Preset* one = find_preset(target.scene.preset);
+                  return one == nullptr ? 0 : one - presets().data();
+                },
+                [](Target& target, std::size_t index) { target.scene.preset = presets()[index].name; }};
   for (const Preset& one : presets()) choice.names.push_back(one.name);
   return choice;
+}
+
+std::vector<Note> preset_notes() {
+  std::vector<Note> notes;
+  for (const Preset& one : presets())
+    if (!one.values.empty()) notes.push_back({std::string(one.name), values_text(one)});
+  return notes;
 }
 
 Choices stop_on() {
@@ -143,6 +152,10 @@ Pair window() {
 std::vector<Section> make_schema() {
   // More nodes along a side than any machine holds; the bytes of such a sheet fit 64 bits.
   constexpr double most_nodes = 1e7;
+  static const std::string preset_doc =
+      "Accuracy by one word: it sets the values below. What the scene names itself stays; a preset given by "
+      "--set changes it. " +
+      presets_text() + ". Errors and costs: `myowave help accuracy`.";
   using Rates = cell::ActiveTensionParameters<double>;
   return {
       {"grid",
@@ -306,13 +319,7 @@ std::vector<Section> make_schema() {
        .repeated = true},
       {"accuracy",
        "What the numbers are kept in, what happens where they go wrong, and what counts as zero.",
-       {{"preset", "", preset(),
-         "Accuracy by one word: time.dt, and of accuracy, feedback, mechanics and output what it takes. What "
-         "the scene names itself stays; a preset given by --set changes it. `paper` steps as the paper, its "
-         "waves 3.4 % slow. `fast` is within 1.5 % in wave speed, period and shortening, 5 times as fast "
-         "where the sheet contracts and 16 times where it is rigid; `balanced` is within 0.3 % in wave speed "
-         "and period and 2 % in the shortening, 4 and 5 times as fast; `reference` is within 0.2 % and 12 to "
-         "15 times as slow."},
+       {{"preset", "", preset(), preset_doc},
         {"dx", "length units", number(MYOWAVE_AT(scene.dx), not_negative),
          "The run takes the largest node spacing up to this that divides the elements, or the sides of a "
          "rigid "
@@ -331,7 +338,10 @@ std::vector<Section> make_schema() {
          "not "
          "finite: `stop`: the run ends there, with exit status 3; `substep`: it goes back and divides dt, "
          "and "
-         "says how often. A dt past the bound of the undeformed sheet is refused in both."}}},
+         "says how often. A dt past the bound of the undeformed sheet is refused in both."}},
+       false,
+       {},
+       preset_notes()},
       {"output",
        "What is written, besides summary.json, manifest.json, tips.csv, trajectories.csv, sources.csv, "
        "area.csv, probes.csv and beats.csv.",
@@ -468,6 +478,8 @@ std::string describe_section(const Section& section) {
                         wrapped(key.doc, 21, 100));
   }
   if (!section.inherits.empty()) text += fmt::format("  {}\n", inherited_text(section));
+  for (const auto& [name, note] : section.notes)
+    text += fmt::format("  {:<19}{}\n", name, wrapped(note, 21, 100));
   return text;
 }
 
@@ -567,6 +579,8 @@ std::string describe_markdown() {
       text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, type, key.unit, default_text(key), doc);
     }
     if (!section.inherits.empty()) text += fmt::format("\n{}\n", inherited_text(section));
+    if (!section.notes.empty()) text += '\n';
+    for (const auto& [name, note] : section.notes) text += fmt::format("- `{}`: {}\n", name, note);
     text += '\n';
   }
   return text;

@@ -99,12 +99,18 @@ struct Key {
   std::string_view only_type{};  // the initial type that this key belongs to
 };
 
+// What a word of a section stands for.
+struct Note {
+  std::string name, text;
+};
+
 struct Section {
   std::string_view name;
   std::string_view doc;
   std::vector<Key> keys;
   bool repeated = false;                     // an array of tables
   std::vector<std::string_view> inherits{};  // sections whose keys stand here by their bare names
+  std::vector<Note> notes{};
 };
 
 const std::vector<Section>& schema();

@@ -347,15 +347,8 @@ void list_dials() {
     fmt::print("  {:<28}{}{}\n  {:28}{}\n", dial.key, dial.doc, dial.elastic ? " (not of a rigid sheet)" : "",
                "", dial.values);
   fmt::print("presets\n");
-  for (const Preset& preset : presets()) {
-    std::vector<std::string> values;
-    for (const auto& [key, value, sheet] : preset.values)
-      values.push_back(fmt::format("{}={}{}", key, value,
-                                   sheet == PresetValue::Sheet::rigid     ? " (rigid)"
-                                   : sheet == PresetValue::Sheet::elastic ? " (elastic)"
-                                                                          : ""));
-    if (!values.empty()) fmt::print("  {:<12}{}\n", preset.name, fmt::join(values, ", "));
-  }
+  for (const Preset& preset : presets())
+    if (!preset.values.empty()) fmt::print("  {:<12}{}\n", preset.name, values_text(preset));
 }
 
 }  // namespace myowave::apps

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -13,11 +12,12 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/base/file_io.hpp"
-#include "apps/base/page.hpp"
 #include "apps/draw/figure.hpp"
-#include "apps/input/schema.hpp"
+#include "apps/base/file_io.hpp"
 #include "apps/results/manifest.hpp"
+#include "apps/base/page.hpp"
+#include "apps/input/presets.hpp"
+#include "apps/input/schema.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -27,7 +27,6 @@ using json = nlohmann::ordered_json;
 using Fronts = std::map<std::string, std::vector<bool>, std::less<>>;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array preset_names{"paper", "fast", "balanced", "reference"};
 constexpr const char* below_note = "* smaller than its uncertainty";
 
 // What the reference has; an event that it lacks only if some setting has it.
@@ -171,28 +170,28 @@ json tradeoff_json(const Study& study, const Fronts& fronts) {
 Figure error_figure(const Study& study, const Observable& one, const std::vector<bool>& front) {
   Series line{.name = "front", .colour = 6},
       others{.name = "other settings", .mark = Mark::points, .colour = 5};
-  std::vector<Series> presets;
+  std::vector<Series> of_presets;
   for (const std::size_t n : by_cost(study)) {
     const Trial& trial = study.trials[n];
     const double cost = median(trial.wall_s), error = error_in(trial, one).value;
     if (!(error > 0) || std::isinf(error)) continue;
     const auto add_to = [&](Series& series) { series.x.push_back(cost), series.y.push_back(error); };
     if (front[n]) add_to(line);
-    const auto preset = std::ranges::find(preset_names, trial.setting.name);
-    if (preset == preset_names.end()) {
+    const Preset* const preset = find_preset(trial.setting.name);
+    if (preset == nullptr) {
       add_to(others);
       continue;
     }
-    presets.push_back({.name = trial.setting.name,
-                       .mark = Mark::points,
-                       .colour = static_cast<int>(preset - preset_names.begin()) + 1});
-    add_to(presets.back());
+    of_presets.push_back({.name = trial.setting.name,
+                          .mark = Mark::points,
+                          .colour = static_cast<int>(preset - presets().data())});
+    add_to(of_presets.back());
   }
   Plot plot{.title = std::string(one.title),
             .x = {.label = "time of a run", .unit = "s", .logarithmic = true},
             .y = {.label = "error", .unit = std::string(one.unit), .logarithmic = true},
             .series = {std::move(line), std::move(others)}};
-  plot.series.insert(plot.series.end(), presets.begin(), presets.end());
+  plot.series.insert(plot.series.end(), of_presets.begin(), of_presets.end());
   std::erase_if(plot.series, [](const Series& series) { return series.x.empty(); });
   const double uncertainty = study.reference->values.find(one.name)->second.uncertainty;
   if (uncertainty > 0) plot.guides = {uncertainty};

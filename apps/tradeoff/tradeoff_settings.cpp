@@ -147,8 +147,9 @@ std::vector<DialValues> parse_axes(std::string_view text, const solver::Scene& s
 
 std::vector<Setting> make_settings(std::span<const DialValues> axes, bool product) {
   std::vector<Setting> settings;
-  for (const char* preset : {"paper", "fast", "balanced", "reference"})
-    settings.push_back({preset, {fmt::format("accuracy.preset={}", preset)}});
+  const auto choose = [](const Preset& preset) { return fmt::format("accuracy.preset={}", preset.name); };
+  for (const Preset& preset : presets())
+    if (!preset.values.empty()) settings.push_back({std::string(preset.name), {choose(preset)}});
   std::vector<std::vector<std::string>> changes;
   if (product) {
     changes = combinations(axes);
@@ -156,10 +157,10 @@ std::vector<Setting> make_settings(std::span<const DialValues> axes, bool produc
     for (const auto& axis : axes)
       for (const auto& value : axis.values) changes.push_back({axis.key + '=' + value});
   }
-  for (const char* preset : {"paper", "balanced"}) {
+  for (const Preset& preset : presets()) {
+    if (!preset.varied) continue;
     for (const auto& change : changes) {
-      Setting setting{fmt::format("{}, {}", preset, fmt::join(change, ", ")),
-                      {fmt::format("accuracy.preset={}", preset)}};
+      Setting setting{fmt::format("{}, {}", preset.name, fmt::join(change, ", ")), {choose(preset)}};
       setting.overrides.insert(setting.overrides.end(), change.begin(), change.end());
       settings.push_back(std::move(setting));
     }

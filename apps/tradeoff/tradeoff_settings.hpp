@@ -39,7 +39,7 @@ struct Setting {
   std::vector<std::string> overrides;
 };
 
-// The presets; then from `paper` and from `balanced` each dial alone, or all combinations of their values.
+// The presets; then from those that are `varied` each dial alone, or all combinations of their values.
 // Errors: InputError where there are too many combinations.
 std::vector<Setting> make_settings(std::span<const DialValues>, bool product);
 

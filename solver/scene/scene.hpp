@@ -49,8 +49,6 @@ enum class MetricTime { held, linear, quadratic };
 enum class Precision { float64, float32 };
 // Of the excitation, kernels/tissue/row_update.hpp.
 enum class Scheme { euler, split };
-// Accuracy by one word (apps/input/presets.hpp); what it stands for is in the scene's own values.
-enum class Preset { none, paper, fast, balanced, reference };
 // What a run does where its steps are unstable: end, or go back and take smaller ones.
 enum class OnUnstable { stop, substep };
 
@@ -131,7 +129,7 @@ struct Scene {
   double dx = 0;  // length units, largest node spacing that the grid was fitted to; 0: the sheet's own
   Precision precision = Precision::float64;
   Scheme scheme = Scheme::euler;
-  Preset preset = Preset::none;
+  std::string preset = "none";  // reported only: what it stands for is in the scene's own values
   OnUnstable on_unstable = OnUnstable::stop;
   OutputSettings output;
 };
