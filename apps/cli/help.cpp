@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/base/embedded_files.hpp"
-#include "apps/input/schema.hpp"
+#include "apps/input/did_you_mean.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {

@@ -39,7 +39,7 @@ std::vector<Preset> make_presets() {
                   {"mechanics.overlap", "false", elastic}},
        .varied = true},
       {.name = "fast",
-       .doc = "large steps for waves and their periods; does not predict break-up times",
+       .doc = "large steps for waves and their periods, not for break-up times",
        .values = large_steps({{"accuracy.dx", "1.15", rigid},
                               {"time.dt", "0.2", rigid},
                               {"accuracy.dx", "0.86", elastic},

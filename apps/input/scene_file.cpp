@@ -13,6 +13,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "apps/input/did_you_mean.hpp"
 #include "apps/input/initial_state.hpp"
 #include "apps/input/presets.hpp"
 #include "apps/input/resample.hpp"

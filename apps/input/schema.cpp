@@ -1,161 +1,24 @@
+// The table of keys: sections, keys, units, ranges, places in a Scene, meaning.
 #include "apps/input/schema.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <cctype>
-#include <nlohmann/json.hpp>
-#include <numeric>
-#include <type_traits>
+#include <cmath>
 
+#include "apps/input/key_kinds.hpp"
 #include "apps/input/presets.hpp"
-#include "solver/base/error.hpp"
 
 namespace myowave::apps {
-
-Target::Target(solver::Scene& whole) : scene(whole), excitation(whole.excitation), tension(whole.tension) {}
-
-Target::Target(solver::Scene& whole, solver::Stimulus& one) : Target(whole) { stimulus = &one; }
-
-Target::Target(solver::Scene& whole, solver::Precondition& one)
-    : scene(whole), excitation(one.excitation), tension(one.tension), precondition(&one) {}
-
-bool Range::contains(double value) const { return (low_open ? value > low : value >= low) && value <= high; }
-
-bool Range::bounded() const { return std::isfinite(low) || std::isfinite(high); }
-
-std::string Range::text() const {
-  if (!bounded()) return "finite";
-  if (!std::isfinite(high)) return fmt::format("{} {}", low_open ? ">" : ">=", low);
-  if (!std::isfinite(low)) return fmt::format("<= {}", high);
-  return low_open ? fmt::format("> {} and <= {}", low, high) : fmt::format("{} to {}", low, high);
-}
-
 namespace {
 
-constexpr Range any{};
-constexpr Range positive{.low = 0, .low_open = true};
-constexpr Range not_negative{.low = 0};
-constexpr double largest_int = std::numeric_limits<int>::max();
-
-// `at` names the place of the value, for reading and for writing.
-template <class At>
-Number number(At at, Range range) {
-  return {at, [at](Target& target, double value) { at(target) = value; }, range};
-}
-
-template <class At>
-Integer integer(At at, Range range) {
-  using Stored = std::remove_cvref_t<std::invoke_result_t<At, const Target&>>;
-  return {[at](const Target& target) { return static_cast<std::int64_t>(at(target)); },
-          [at](Target& target, std::int64_t value) { at(target) = static_cast<Stored>(value); }, range};
-}
-
-template <class At>
-Flag flag(At at) {
-  return {at, [at](Target& target, bool value) { at(target) = value; }};
-}
-
-// `names` in the order of the enumerators.
-template <class At>
-Choice choice(std::vector<std::string_view> names, At at) {
-  using Enum = std::remove_cvref_t<std::invoke_result_t<At, const Target&>>;
-  return {std::move(names), [at](const Target& target) { return static_cast<std::size_t>(at(target)); },
-          [at](Target& target, std::size_t value) { at(target) = static_cast<Enum>(value); }};
-}
-
-Choice tension_law() {
-  Choice law;
-  for (const solver::NamedTensionLaw& one : solver::tension_laws) law.names.push_back(one.name);
-  law.get = [](const Target& target) { return static_cast<std::size_t>(target.tension.law); };
-  law.set = [](Target& target, std::size_t index) {
-    target.tension.law = static_cast<solver::TensionLaw>(index);
-    target.tension.eps_below.reset();
-    target.tension.eps_above.reset();
-  };
-  return law;
-}
-
-Choice preset() {
-  Choice choice{{},
-                [](const Target& target) -> std::size_t {
-                  const Preset* one = find_preset(target.scene.preset);
-                  return one == nullptr ? 0 : one - presets().data();
-                },
-                [](Target& target, std::size_t index) { target.scene.preset = presets()[index].name; }};
-  for (const Preset& one : presets()) choice.names.push_back(one.name);
-  return choice;
-}
-
-std::vector<Note> preset_notes() {
-  std::vector<Note> notes;
-  for (const Preset& one : presets())
-    if (!one.values.empty()) notes.push_back({std::string(one.name), values_text(one)});
-  return notes;
-}
-
-Choices stop_on() {
-  return {{"breakup", "death"},
-          [](const Target& target) {
-            const solver::StopOn& on = target.scene.time.stop_on;
-            return std::vector<bool>{on.breakup, on.death};
-          },
-          [](Target& target, const std::vector<bool>& on) {
-            target.scene.time.stop_on = {on[0], on[1]};
-          }};
-}
-
-Number tension_eps0() {
-  const auto multiply_both = [](Target& target, double eps0) {
-    const auto rates = solver::tension_parameters(target.tension);
-    target.tension.eps_below = rates.eps_below * eps0;
-    target.tension.eps_above = rates.eps_above * eps0;
-  };
-  return {nullptr, multiply_both, positive};
-}
-
-// In place of the law's, which is in force where the key is not given.
-Number tension_rate(double cell::ActiveTensionParameters<double>::*rate,
-                    std::optional<double> solver::TensionSettings::*own) {
-  return {[rate](const Target& target) { return solver::tension_parameters(target.tension).*rate; },
-          [own](Target& target, double value) { target.tension.*own = value; }, not_negative};
-}
-
-Number output_every() {
-  const auto set_all = [](Target& target, double every) {
-    target.scene.output.every = target.scene.output.tips_every = target.scene.output.probes_every = every;
-  };
-  return {[](const Target& target) { return target.scene.output.every; }, set_all, positive};
-}
-
-template <class At>
-Pair pair(std::string_view parts, At at, Range range) {
-  return {parts, at, [at](Target& target, std::array<int, 2> value) { at(target) = value; }, range};
-}
-
-Pair window() {
-  return {"[row0, column0]",
-          [](const Target& target) {
-            return target.scene.initial.window.value_or(std::array{0, 0});
-          },
-          [](Target& target, std::array<int, 2> value) { target.scene.initial.window = value; },
-          {.low = 0, .high = largest_int}};
-}
+using namespace kinds;
 
 // A Target's references are to what the caller may change, so one accessor reads and writes.
 #define MYOWAVE_AT(place) \
   [](const Target& target) -> auto& { return target.place; }
 
-// Within a section, keys take effect in this order: tension.law before eps0 before eps_below and
-// eps_above, output.every before the two that follow it.
-std::vector<Section> make_schema() {
+std::vector<Section> tissue_sections() {
   // More nodes along a side than any machine holds; the bytes of such a sheet fit 64 bits.
   constexpr double most_nodes = 1e7;
-  static const std::string preset_doc =
-      "Accuracy by one word: it sets the values below. What the scene names itself stays; a preset given by "
-      "--set changes it. " +
-      presets_text() + ". Errors and costs: `myowave help accuracy`.";
   using Rates = cell::ActiveTensionParameters<double>;
   return {
       {"grid",
@@ -200,6 +63,11 @@ std::vector<Section> make_schema() {
         {"eps_above", "1/t.u.", tension_rate(&Rates::eps_above, &solver::TensionSettings::eps_above),
          "Rate where V >= threshold, in place of the law's.", "the law's"},
         {"threshold", "", number(MYOWAVE_AT(tension.threshold), any), "V at which the rate changes."}}},
+  };
+}
+
+std::vector<Section> mechanics_sections() {
+  return {
       {"mechanics",
        "The elastic sheet. Without this section the sheet is rigid.",
        {{"on", "", Flag{[](const Target& target) { return target.scene.mechanics.has_value(); }, nullptr},
@@ -233,6 +101,11 @@ std::vector<Section> make_schema() {
          "Whose deformation an interval feels: `held`: the last solve's; `linear`, `quadratic`: extrapolated "
          "from the last two or three to its middle. Interval 40 quadratic is three times closer than 10 "
          "held."}}},
+  };
+}
+
+std::vector<Section> initial_sections() {
+  return {
       {"initial",
        "The state at t = 0.",
        {{"type", "",
@@ -283,6 +156,11 @@ std::vector<Section> make_schema() {
         {"noise", "", number(MYOWAVE_AT(scene.initial.noise), not_negative),
          "Standard deviation of what is added to V at each node."},
         {"seed", "", integer(MYOWAVE_AT(scene.initial.seed), {.low = 0}), "Seed of the noise."}}},
+  };
+}
+
+std::vector<Section> protocol_sections() {
+  return {
       {.name = "initial.precondition",
        .doc =
            "Runs before the scene, in order, on the same sheet; then t := 0 and the scene's own values hold. "
@@ -317,6 +195,15 @@ std::vector<Section> make_schema() {
              "and last node, both included; the one left out is the whole side) or all.",
              "\"all\""}},
        .repeated = true},
+  };
+}
+
+std::vector<Section> accuracy_sections() {
+  static const std::string preset_doc =
+      "Accuracy by one word: it sets the values below. What the scene names itself stays; a preset given by "
+      "--set changes it. " +
+      presets_text() + ". Errors and costs: `myowave help accuracy`.";
+  return {
       {"accuracy",
        "What the numbers are kept in, what happens where they go wrong, and what counts as zero.",
        {{"preset", "", preset(), preset_doc},
@@ -342,6 +229,11 @@ std::vector<Section> make_schema() {
        false,
        {},
        preset_notes()},
+  };
+}
+
+std::vector<Section> output_sections() {
+  return {
       {"output",
        "What is written, besides summary.json, manifest.json, tips.csv, trajectories.csv, sources.csv, "
        "area.csv, probes.csv and beats.csv.",
@@ -380,110 +272,30 @@ std::vector<Section> make_schema() {
   };
 }
 
+// Within a section, keys take effect in this order: tension.law before eps0 before eps_below and
+// eps_above, output.every before the two that follow it.
+std::vector<Section> make_schema() {
+  std::vector<Section> all;
+  for (const auto& part : {tissue_sections(), mechanics_sections(), initial_sections(), protocol_sections(),
+                           accuracy_sections(), output_sections()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 #undef MYOWAVE_AT
 
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-
-nlohmann::json region_json(const solver::Stimulus& stimulus) {
-  switch (stimulus.shape) {
-    case solver::Stimulus::Shape::disc:
-      return {{"center", stimulus.center}, {"radius", stimulus.radius}};
-    case solver::Stimulus::Shape::block:
-      return {{"columns", stimulus.columns}, {"rows", stimulus.rows}};
-    case solver::Stimulus::Shape::all:
-      break;
-  }
-  return "all";
-}
-
-// The value in force, null for a key that only acts on others.
-nlohmann::json value_of(const Key& key, const Target& target) {
-  return std::visit(Overloaded{
-                        [&](const Choice& kind) -> nlohmann::json { return kind.names[kind.get(target)]; },
-                        [&](const Choices& kind) -> nlohmann::json {
-                          nlohmann::json chosen = nlohmann::json::array();
-                          const auto flags = kind.get(target);
-                          for (std::size_t n = 0; n < flags.size(); ++n)
-                            if (flags[n]) chosen.push_back(kind.names[n]);
-                          return chosen;
-                        },
-                        [&](const Size&) -> nlohmann::json {
-                          return {target.scene.grid.rows, target.scene.grid.columns};
-                        },
-                        [&](const Probes&) -> nlohmann::json { return target.scene.output.probes; },
-                        [&](const Region&) -> nlohmann::json { return region_json(*target.stimulus); },
-                        [&](const auto& kind) -> nlohmann::json {
-                          return kind.get ? nlohmann::json(kind.get(target)) : nlohmann::json();
-                        },
-                    },
-                    key.kind);
-}
-
-nlohmann::json values_of(const Section& section, const Target& target) {
-  nlohmann::json values = nlohmann::json::object();
-  const auto type = value_of(*find_key(*find_section("initial"), "type"), target).get<std::string>();
-  for (std::string_view other : section.inherits) values.update(values_of(*find_section(other), target));
-  for (const Key& key : section.keys) {
-    if (!key.only_type.empty() && key.only_type != type) continue;
-    if (key.name == "window" && !target.scene.initial.window) continue;
-    nlohmann::json value = value_of(key, target);
-    if (!value.is_null()) values[std::string(key.name)] = std::move(value);
-  }
-  return values;
-}
-
-// Text wrapped at `width`, every line after the first indented.
-std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
-  std::string result;
-  std::size_t column = indent;
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
-    if (column > indent && column + word.size() + 1 > width) {
-      result += '\n' + std::string(indent, ' ');
-      column = indent;
-    }
-    if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-  }
-  return result;
-}
-
-std::string header_text(const Section& section) {
-  return section.repeated ? fmt::format("[[{}]]", section.name) : fmt::format("[{}]", section.name);
-}
-
-std::string inherited_text(const Section& section) {
-  return fmt::format("Also every key of [{}] by its bare name; what is not named is as in the scene.",
-                     fmt::join(section.inherits, "] and ["));
-}
-
-std::string describe_section(const Section& section) {
-  std::string text = fmt::format("{}\n  {}\n", header_text(section), wrapped(section.doc, 2, 100));
-  for (const Key& key : section.keys) {
-    std::string facts = type_text(key.kind);
-    if (const std::string range = range_text(key.kind); !range.empty()) facts += ", " + range;
-    if (!key.unit.empty()) facts += fmt::format(", in {}", key.unit);
-    const std::string value = default_text(key);
-    facts += key.required ? ", required" : fmt::format(", default {}", value);
-    if (!key.only_type.empty()) facts += fmt::format(", only with type = \"{}\"", key.only_type);
-    text += fmt::format("  {:<19}{}\n{:21}{}\n", key.name, wrapped(facts, 21, 100), "",
-                        wrapped(key.doc, 21, 100));
-  }
-  if (!section.inherits.empty()) text += fmt::format("  {}\n", inherited_text(section));
-  for (const auto& [name, note] : section.notes)
-    text += fmt::format("  {:<19}{}\n", name, wrapped(note, 21, 100));
-  return text;
-}
-
 }  // namespace
+
+Target::Target(solver::Scene& whole) : scene(whole), excitation(whole.excitation), tension(whole.tension) {}
+
+Target::Target(solver::Scene& whole, solver::Stimulus& one) : Target(whole) { stimulus = &one; }
+
+Target::Target(solver::Scene& whole, solver::Precondition& one)
+    : scene(whole), excitation(one.excitation), tension(one.tension), precondition(&one) {}
+
+bool Range::contains(double value) const { return (low_open ? value > low : value >= low) && value <= high; }
+
+bool Range::bounded() const { return std::isfinite(low) || std::isfinite(high); }
 
 const std::vector<Section>& schema() {
   static const std::vector<Section> table = make_schema();
@@ -502,154 +314,6 @@ const Key* find_key(const Section& section, std::string_view name) {
     if (const Key* key = find_key(*find_section(other), name)) return key;
   }
   return nullptr;
-}
-
-std::string type_text(const Kind& kind) {
-  return std::visit(
-      Overloaded{
-          [](const Number&) -> std::string { return "number"; },
-          [](const Integer&) -> std::string { return "integer"; },
-          [](const Flag&) -> std::string { return "true or false"; },
-          [](const Choice& one) { return fmt::format("\"{}\"", fmt::join(one.names, "\" or \"")); },
-          [](const Choices& one) { return fmt::format("list of \"{}\"", fmt::join(one.names, "\", \"")); },
-          [](const Path&) -> std::string { return "path"; },
-          [](const Pair& one) { return fmt::format("{}, two integers", one.parts); },
-          [](const Size&) -> std::string { return "integer or [rows, columns]"; },
-          [](const Probes&) -> std::string { return "list of [row, column]"; },
-          [](const Region&) -> std::string {
-            return "\"all\", {center = [column, row], radius = R} or {columns = [a, b], rows = [a, b]}";
-          },
-      },
-      kind);
-}
-
-std::string range_text(const Kind& kind) {
-  const Range* range = nullptr;
-  std::visit(
-      [&](const auto& one) {
-        if constexpr (requires { one.range; }) range = &one.range;
-      },
-      kind);
-  if (range == nullptr) return "";
-  // A bound that is only the width of an int says nothing to a reader.
-  Range shown = *range;
-  if (shown.high >= largest_int) shown.high = any.high;
-  if (shown.low <= -largest_int) shown.low = any.low;
-  return shown.bounded() ? shown.text() : "";
-}
-
-std::string default_text(const Key& key) {
-  if (!key.default_text.empty()) return std::string(key.default_text);
-  solver::Scene scene;
-  scene.mechanics.emplace();
-  solver::Stimulus stimulus;
-  solver::Precondition precondition;
-  Target target(scene);
-  target.stimulus = &stimulus;
-  target.precondition = &precondition;
-  const nlohmann::json value = value_of(key, target);
-  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
-}
-
-std::string describe(std::string_view name) {
-  if (name.empty()) {
-    std::string text;
-    for (const Section& section : schema()) text += (text.empty() ? "" : "\n") + describe_section(section);
-    return text;
-  }
-  if (const Section* section = find_section(name)) return describe_section(*section);
-  std::vector<std::string_view> names;
-  for (const Section& section : schema()) names.push_back(section.name);
-  const std::string meant = did_you_mean(name, names);
-  throw solver::InputError(fmt::format("there is no section [{}]{} Sections: {}", name,
-                                       meant.empty() ? "." : fmt::format("; did you mean \"{}\"?", meant),
-                                       fmt::join(names, ", ")));
-}
-
-std::string describe_markdown() {
-  std::string text;
-  for (const Section& section : schema()) {
-    text += fmt::format("### `{}`\n\n{}\n\n", header_text(section), section.doc);
-    text += "| key | type and range | unit | default | meaning |\n|---|---|---|---|---|\n";
-    for (const Key& key : section.keys) {
-      std::string type = type_text(key.kind);
-      if (const std::string range = range_text(key.kind); !range.empty()) type += ", " + range;
-      std::string doc(key.doc);
-      if (!key.only_type.empty()) doc += fmt::format(" Only with `type = \"{}\"`.", key.only_type);
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, type, key.unit, default_text(key), doc);
-    }
-    if (!section.inherits.empty()) text += fmt::format("\n{}\n", inherited_text(section));
-    if (!section.notes.empty()) text += '\n';
-    for (const auto& [name, note] : section.notes) text += fmt::format("- `{}`: {}\n", name, note);
-    text += '\n';
-  }
-  return text;
-}
-
-nlohmann::json effective_configuration(const solver::Scene& given) {
-  solver::Scene scene = given;  // a Target may change what it refers to
-  Target whole(scene);
-  nlohmann::json configuration = nlohmann::json::object();
-  for (const Section& section : schema()) {
-    if (section.repeated) continue;
-    const std::string name(section.name);
-    if (name == "mechanics" && !scene.mechanics) {
-      configuration[name] = {{"on", false}};
-    } else {
-      configuration[name] = values_of(section, whole);
-    }
-  }
-  for (solver::Precondition& one : scene.initial.preconditions) {
-    configuration["initial"]["precondition"].push_back(
-        values_of(*find_section("initial.precondition"), Target(scene, one)));
-  }
-  for (solver::Stimulus& one : scene.stimuli) {
-    configuration["stimulus"].push_back(values_of(*find_section("stimulus"), Target(scene, one)));
-  }
-  return configuration;
-}
-
-std::string hint(std::string_view meant) {
-  return meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
-}
-
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& names) {
-  const auto same = [](char left, char right) {
-    return std::tolower(static_cast<unsigned char>(left)) == std::tolower(static_cast<unsigned char>(right));
-  };
-  // Damerau-Levenshtein (a swap of neighbours is one edit), letter case ignored.
-  const auto distance = [&](std::string_view left, std::string_view right) {
-    std::vector<std::size_t> before, last(right.size() + 1), now(right.size() + 1);
-    std::iota(last.begin(), last.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= left.size(); ++i) {
-      now[0] = i;
-      for (std::size_t j = 1; j <= right.size(); ++j) {
-        now[j] =
-            std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same(left[i - 1], right[j - 1]) ? 0 : 1)});
-        if (i > 1 && j > 1 && same(left[i - 1], right[j - 2]) && same(left[i - 2], right[j - 1])) {
-          now[j] = std::min(now[j], before[j - 2] + 1);
-        }
-      }
-      before = last;
-      std::swap(last, now);
-      now.resize(right.size() + 1);
-    }
-    return last[right.size()];
-  };
-  std::string best;
-  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
-  constexpr std::size_t longest = 64;  // a longer word is no slip of a key
-  if (word.size() > longest) return best;
-  for (std::string_view name : names) {
-    const std::size_t edits = distance(word, name);
-    const std::size_t allowed = std::max<std::size_t>(1, std::min(word.size(), name.size()) / 3 + 1);
-    // Every letter changed is another word, not a slip.
-    if (edits <= allowed && edits < std::max(word.size(), name.size()) && edits < best_distance) {
-      best = name;
-      best_distance = edits;
-    }
-  }
-  return best;
 }
 
 }  // namespace myowave::apps

@@ -89,6 +89,12 @@ struct Region {};
 
 using Kind = std::variant<Number, Integer, Flag, Choice, Choices, Path, Pair, Size, Probes, Region>;
 
+// For std::visit over the kinds.
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
 struct Key {
   std::string_view name;
   std::string_view unit;  // empty: dimensionless
@@ -126,12 +132,10 @@ std::string default_text(const Key&);
 std::string describe(std::string_view section);
 std::string describe_markdown();
 
+// The value in force, null for a key that only acts on others.
+nlohmann::json value_of(const Key&, const Target&);
+
 // Every value in force, defaults included, in the shape of a scene file.
 nlohmann::json effective_configuration(const solver::Scene&);
-
-// The name nearest to `word` by edit distance, or "" where none is near enough to be meant.
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& names);
-// "; did you mean "..."?", empty where nothing is meant.
-std::string hint(std::string_view meant);
 
 }  // namespace myowave::apps

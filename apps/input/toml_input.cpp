@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "apps/input/schema.hpp"
+#include "apps/input/did_you_mean.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {

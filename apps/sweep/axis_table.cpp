@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "apps/input/did_you_mean.hpp"
 #include "apps/input/schema.hpp"
 
 namespace myowave::apps {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "apps/input/did_you_mean.hpp"
 #include "apps/input/presets.hpp"
-#include "apps/input/schema.hpp"
 #include "apps/input/toml_input.hpp"
 #include "apps/tradeoff/tradeoff_errors.hpp"
 #include "solver/base/error.hpp"

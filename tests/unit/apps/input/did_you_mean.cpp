@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "apps/input/did_you_mean.hpp"
 
-#include "apps/input/schema.hpp"
+#include <gtest/gtest.h>
 
 namespace {
 
