@@ -43,11 +43,26 @@ std::string last_line(const fs::path& path) {
   return last;
 }
 
-// Threads of each of the runs that go on at once; theirs are not bound, or all would share the first cores.
-void share_threads(int parallel) {
+// This process's environment ("NAME=value") with an equal share of the machine's threads for each of
+// `parallel` runs. Their threads are not bound: all would be bound to the first cores.
+std::vector<std::string> environment_of_runs(int parallel) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  setenv("OMP_NUM_THREADS", std::to_string(std::max(1, cores / parallel)).c_str(), 1);
-  setenv("OMP_PROC_BIND", "false", 1);
+  std::vector<std::string> variables{fmt::format("OMP_NUM_THREADS={}", std::max(1, cores / parallel)),
+                                     "OMP_PROC_BIND=false"};
+  for (const char* const* one = environ; *one != nullptr; ++one) {
+    const std::string_view variable(*one);
+    if (!variable.starts_with("OMP_NUM_THREADS=") && !variable.starts_with("OMP_PROC_BIND="))
+      variables.emplace_back(variable);
+  }
+  return variables;
+}
+
+// As execve takes them; valid as long as the words are.
+std::vector<const char*> pointers_to(const std::vector<std::string>& words) {
+  std::vector<const char*> pointers;
+  for (const auto& word : words) pointers.push_back(word.c_str());
+  pointers.push_back(nullptr);
+  return pointers;
 }
 
 // Where the jobs of a folder have their files.
@@ -70,7 +85,7 @@ bool is_done(const JobFiles& files, const std::string& scene) {
 }
 
 // In the child, between fork and exec: only calls that are safe there.
-[[noreturn]] void become(const char* const* arguments, const char* log) {
+[[noreturn]] void become(const char* const* arguments, const char* const* environment, const char* log) {
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with its parent, however that ends
 #endif
@@ -79,19 +94,17 @@ bool is_done(const JobFiles& files, const std::string& scene) {
     dup2(file, STDOUT_FILENO);
     dup2(file, STDERR_FILENO);
   }
-  execv(arguments[0], const_cast<char* const*>(arguments));
+  execve(arguments[0], const_cast<char* const*>(arguments), const_cast<char* const*>(environment));
   _exit(127);
 }
 
-pid_t begin(const fs::path& program, const JobFiles& files) {
+pid_t begin(const fs::path& program, const std::vector<std::string>& environment, const JobFiles& files) {
   const std::vector<std::string> words{
       program.string(), "run", files.scene.string(), "--out", files.run.string(), "--force", "--quiet"};
-  std::vector<const char*> arguments;
-  for (const auto& word : words) arguments.push_back(word.c_str());
-  arguments.push_back(nullptr);
+  const auto arguments = pointers_to(words), variables = pointers_to(environment);
   const std::string log = files.log.string();
   const pid_t child = fork();
-  if (child == 0) become(arguments.data(), log.c_str());
+  if (child == 0) become(arguments.data(), variables.data(), log.c_str());
   if (child < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)));
   return child;
 }
@@ -104,6 +117,7 @@ class JobQueue {
         jobs_(jobs),
         folder_(std::move(folder)),
         parallel_(std::max(1, parallel)),
+        environment_(environment_of_runs(parallel_)),
         told_(told) {
     for (const Job& job : jobs_)
       for (const auto& need : job.needs)
@@ -111,7 +125,6 @@ class JobQueue {
           throw solver::InputError(fmt::format("job {} needs {}, which is none of the jobs", job.name, need));
     fs::create_directories(folder_ / "scenes");
     fs::create_directories(folder_ / "runs");
-    share_threads(parallel_);
   }
 
   std::map<std::string, JobOutcome> run() {
@@ -148,7 +161,7 @@ class JobQueue {
     // First, so that results beside the new scene are never those of an old one.
     fs::remove_all(files.run);
     replace_file(files.scene, job.scene);
-    running_.emplace(begin(program_, files), Running{&job, Clock::now()});
+    running_.emplace(begin(program_, environment_, files), Running{&job, Clock::now()});
   }
 
   bool is_running(const Job& job) const {
@@ -181,6 +194,7 @@ class JobQueue {
   std::span<const Job> jobs_;
   fs::path folder_;
   int parallel_;
+  std::vector<std::string> environment_;
   const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told_;
   std::map<pid_t, Running> running_;
   std::map<std::string, JobOutcome> outcomes_;

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "apps/input/scene_file.hpp"
@@ -114,6 +116,26 @@ TEST(RunJobs, TheNumberOfParallelRunsChangesNoResult) {
   for (const Job& job : jobs)
     EXPECT_EQ(RunResults(one.path() / "runs" / job.name).last_frame().V,
               RunResults(three.path() / "runs" / job.name).last_frame().V);
+}
+
+TEST(RunJobs, ThreadsAreSharedInTheEnvironmentOfTheRunsAlone) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "environment.sh") << "#!/bin/sh\nenv\n";
+  fs::permissions(folder / "environment.sh", fs::perms::owner_all);
+  setenv("OMP_NUM_THREADS", "777", 1);
+  setenv("MYOWAVE_TEST_VARIABLE", "as it is", 1);
+  const std::vector<Job> jobs{{"one", small_scene().text(), {}}};
+  run_jobs(folder / "environment.sh", jobs, folder.path(), 100000,
+           [](const std::string&, const JobOutcome& outcome, std::size_t) { EXPECT_TRUE(outcome.ok()); });
+  EXPECT_STREQ(std::getenv("OMP_NUM_THREADS"), "777");
+  unsetenv("OMP_NUM_THREADS");
+  unsetenv("MYOWAVE_TEST_VARIABLE");
+  std::ifstream log(folder / "runs/one.log");
+  const std::string environment{std::istreambuf_iterator<char>(log), {}};
+  EXPECT_THAT(environment, HasSubstr("OMP_NUM_THREADS=1\n"));
+  EXPECT_THAT(environment, HasSubstr("OMP_PROC_BIND=false\n"));
+  EXPECT_THAT(environment, HasSubstr("MYOWAVE_TEST_VARIABLE=as it is\n"));
+  EXPECT_THAT(environment, testing::Not(HasSubstr("777")));
 }
 
 TEST(RunJobs, RefusesWhatCannotBegin) {
