@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/base/root_finding.hpp"
+
 namespace myowave::apps {
 
 std::optional<double> observed_order(const std::array<double, 3>& h, double first_difference,
@@ -14,14 +16,9 @@ std::optional<double> observed_order(const std::array<double, 3>& h, double firs
   const auto ratio = [&](double p) {
     return (std::pow(h[0], p) - std::pow(h[1], p)) / (std::pow(h[1], p) - std::pow(h[2], p));
   };
-  double low = smallest, high = largest;
-  if (!(seen >= ratio(low) && seen <= ratio(high))) return std::nullopt;
-  constexpr int halvings = 50;
-  for (int n = 0; n < halvings; ++n) {
-    const double middle = 0.5 * (low + high);
-    (ratio(middle) < seen ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  if (!(seen >= ratio(smallest) && seen <= ratio(largest))) return std::nullopt;
+  constexpr double tolerance = 1e-14;
+  return solver::bisect({smallest, largest}, tolerance, [&](double p) { return ratio(p) < seen; }).middle();
 }
 
 Extrapolated richardson(std::span<const double> h, std::span<const double> values) {

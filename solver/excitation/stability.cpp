@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "solver/base/error.hpp"
+#include "solver/base/root_finding.hpp"
 
 namespace myowave::solver {
 namespace {
@@ -25,13 +26,9 @@ double turning_point(double k, double a, double one, double push, double current
   if (k == 0) return push > 0 || current > 0 ? infinity : 0;
   const double start = std::max({a, one, 0.0});
   const auto points_out = [&](double V) { return V * (k * (V - a) * (V - one) - push) < current; };
-  double low = start, high = start + std::sqrt(std::max(0.0, push) / k) + std::cbrt(current / k);
-  constexpr int halvings = 60;
-  for (int n = 0; n < halvings; ++n) {
-    const double middle = 0.5 * (low + high);
-    (points_out(middle) ? low : high) = middle;
-  }
-  return high;
+  const double end = start + std::sqrt(std::max(0.0, push) / k) + std::cbrt(current / k);
+  constexpr double tolerance = 1e-18;  // of the interval: ends the search for a root at 0
+  return bisect({start, end}, tolerance * (end - start), points_out).high;
 }
 
 // Beyond V > 0 an explicit step of the reaction alone takes V to a larger |V|: k dt / C_m (V - a)(V - 1) = 2.

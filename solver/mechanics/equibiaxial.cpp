@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/base/root_finding.hpp"
+
 namespace myowave::solver {
 
 std::optional<double> equibiaxial_stretch(const MechanicsSettings& settings, double Ta) {
@@ -20,11 +22,7 @@ std::optional<double> equibiaxial_stretch(const MechanicsSettings& settings, dou
     high *= 2;
     if (high > largest) return std::nullopt;
   }
-  while (true) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) return std::sqrt(middle);
-    (tension(middle) < 0 ? low : high) = middle;
-  }
+  return std::sqrt(bisect({low, high}, 0, [&](double s) { return tension(s) < 0; }).middle());
 }
 
 }  // namespace myowave::solver

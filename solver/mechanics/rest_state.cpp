@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solver/mechanics/equibiaxial.hpp"
+#include "solver/base/root_finding.hpp"
 
 namespace myowave::solver {
 
@@ -14,13 +15,10 @@ double largest_dead_load(const MechanicsSettings& settings) {
   const auto resistance = [&](double s) {
     return settings.c1 * (1 + 1 / (s * s * s)) + settings.c2 * (3 / (s * s) - s);
   };
-  double low = 1, high = 2;
+  double high = 2;
   while (resistance(high) > 0) high *= 2;
-  while (true) {
-    const double s = 0.5 * (low + high);
-    if (s <= low || s >= high) return 2 * (s - 1 / (s * s)) * (settings.c1 + settings.c2 * s) / std::sqrt(s);
-    (resistance(s) > 0 ? low : high) = s;
-  }
+  const double s = bisect({1, high}, 0, [&](double at) { return resistance(at) > 0; }).middle();
+  return 2 * (s - 1 / (s * s)) * (settings.c1 + settings.c2 * s) / std::sqrt(s);
 }
 
 std::optional<std::string> why_no_rest_state(const MechanicsSettings& settings) {
