@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "solver/mechanics/equibiaxial.hpp"
+
 namespace myowave::apps {
 namespace {
 
@@ -29,22 +31,6 @@ int even(double size) { return 2 * int(std::ceil(size / 2)); }  // video encoder
 
 }  // namespace
 
-double rest_stretch(const solver::MechanicsSettings& m) {
-  if (m.edges == solver::Edges::fixed) return 1;
-  // Uniform equibiaxial stretch: the tension of the membrane per deformed (follower) or undeformed
-  // (dead) length grows with the stretch and equals p.
-  const auto excess = [&m](double stretch) {
-    const double per_deformed = 2 * (1 - std::pow(stretch, -6)) * (m.c1 + m.c2 * stretch * stretch);
-    return per_deformed * (m.load == solver::Load::dead ? stretch : 1.0) - m.p;
-  };
-  double low = 0.1, high = 10;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (excess(middle) < 0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 FramePicture::FramePicture(const solver::Scene& scene)
     : shape_(frame_shape(scene)), ms_per_tu_(scene.time.ms_per_tu) {
   const double length_1 = (shape_.columns - 1) * shape_.dx, length_2 = (shape_.rows - 1) * shape_.dx;
@@ -55,7 +41,8 @@ FramePicture::FramePicture(const solver::Scene& scene)
     // The sheet grows about its pinned node.
     const double h = shape_.cells * shape_.dx;
     const double pin_1 = shape_.element_columns() / 2 * h, pin_2 = shape_.element_rows() / 2 * h;
-    const double stretch = slack * std::max(1.0, rest_stretch(*scene.mechanics));
+    const double at_rest = solver::equibiaxial_stretch(*scene.mechanics, 0).value_or(1);
+    const double stretch = slack * std::max(1.0, at_rest);
     const double reach_1 = stretch * std::max(pin_1, length_1 - pin_1);
     const double reach_2 = stretch * std::max(pin_2, length_2 - pin_2);
     x = pin_1 - reach_1;

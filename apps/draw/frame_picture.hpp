@@ -28,7 +28,4 @@ class FramePicture {
   int view_width_, view_height_;
 };
 
-// Stretch of the sheet at rest under its edge load, at Ta = 0.
-double rest_stretch(const solver::MechanicsSettings&);
-
 }  // namespace myowave::apps

@@ -7,6 +7,7 @@
 #include "apps/paper/figures.hpp"
 #include "apps/paper/measures.hpp"
 #include "solver/analysis/cell_protocol.hpp"
+#include "solver/mechanics/equibiaxial.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 constexpr double cycle = 33;  // t.u.; 330 ms
 constexpr int shown_beats = 2;
 constexpr double k_Ta = 47.9;  // kPa, Table 1
-// Side of the loaded sheet at rest over its undeformed side, where Ta = 0 and p = 10: table of equibiaxial
-// solutions; areas are relative to it, shortening to the undeformed sheet.
-constexpr double rest_stretch = 1.1293425101;
 
 int beats(Extent extent) { return extent == Extent::full ? 70 : 55; }  // the first 50 are transient
 
@@ -45,6 +43,8 @@ Course course_of(const RunResults& run, std::string title) {
   Course course{.plot = {.title = std::move(title), .x = {"time", "ms"}, .y = {"V, L, T / k_Ta", ""}}};
   Series v{.name = "V"}, l{.name = "L"}, ta{.name = "T / k_Ta", .dashed = true};
   double largest_V = 0, largest_Ta = 0;
+  // Areas are relative to the loaded sheet at rest, shortening to the undeformed one.
+  const double rest_stretch = solver::equibiaxial_stretch(solver::MechanicsSettings{}, 0).value();
   for (std::size_t n = 0; n < t_area.size(); ++n) {
     l.x.push_back((t_area[n] - begin) * ms_per_tu);
     l.y.push_back(1 - rest_stretch * std::sqrt(ratio[n]));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/run/run.hpp"
+#include "solver/base/run_output.hpp"
 
 namespace myowave::test {
 

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
+#include "solver/mechanics/equibiaxial.hpp"
 #include "tests/support/png.hpp"
 #include "tests/support/synthetic_frames.hpp"
 
@@ -109,29 +111,39 @@ TEST(FramePicture, ARigidSheetFillsItsSquareWithRowsUpwards) {
   EXPECT_EQ(difference(picture.at(int(outside.x), int(outside.y) - 6), white), 0);
 }
 
+// A sheet of 251 x 251 nodes is pinned at element node (12, 12) of 25 x 25.
+void expect_corners_in_view(const solver::Scene& scene, double stretch) {
+  const FramePicture drawing(scene);
+  constexpr double pin = 72;
+  for (const double X : {0.0, 150.0}) {
+    const auto at = drawing.to_pixel(pin + stretch * (X - pin), pin + stretch * (X - pin));
+    EXPECT_GT(at.x, 0);
+    EXPECT_LT(at.x, 900);
+  }
+}
+
 TEST(FramePicture, TheViewHoldsTheSheetAtRest) {
   for (const auto load : {solver::Load::follower, solver::Load::dead}) {
     for (const double p : {-10.0, 0.0, 10.0}) {
       auto scene = scene_of(251, 251, true);
       scene.mechanics->load = load;
       scene.mechanics->p = p;
-      const FramePicture drawing(scene);
-      // Pinned at element node (12, 12) of 25 x 25.
-      const double pin = 72, stretch = rest_stretch(*scene.mechanics);
-      for (const double X : {0.0, 150.0}) {
-        const auto at = drawing.to_pixel(pin + stretch * (X - pin), pin + stretch * (X - pin));
-        EXPECT_GT(at.x, 0);
-        EXPECT_LT(at.x, 900);
-      }
+      expect_corners_in_view(scene, solver::equibiaxial_stretch(*scene.mechanics, 0).value());
     }
   }
 }
 
-TEST(FramePicture, RestStretchIsTheTabulatedOne) {
-  solver::MechanicsSettings mechanics;
-  EXPECT_NEAR(rest_stretch(mechanics) * rest_stretch(mechanics), 1.2754145052, 1e-9);
-  mechanics.p = 0;
-  EXPECT_NEAR(rest_stretch(mechanics), 1, 1e-12);
+// A dead load p on a sheet with c2 = 0 stretches it by p / (2 c1), as far as its thickness does not resist.
+TEST(FramePicture, TheViewHoldsASheetThatALoadStretchesManyTimes) {
+  for (const double stretch : {9.9, 10.0, 10.1, 40.0}) {
+    auto scene = scene_of(251, 251, true);
+    auto& mechanics = *scene.mechanics;
+    mechanics.load = solver::Load::dead;
+    mechanics.c2 = 0;
+    mechanics.p = 2 * mechanics.c1 * (stretch - std::pow(stretch, -5));
+    EXPECT_NEAR(solver::equibiaxial_stretch(mechanics, 0).value(), stretch, 1e-12 * stretch);
+    expect_corners_in_view(scene, stretch);
+  }
 }
 
 TEST(FramePicture, AStripIsDrawnAsAStrip) {
