@@ -1,13 +1,11 @@
 #include "apps/draw/canvas.hpp"
 
 #include <cairo-svg.h>
-#include <cairo.h>
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include "apps/base/page.hpp"
+#include "apps/cairo_drawing.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -15,42 +13,6 @@ namespace {
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned length) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), length);
   return CAIRO_STATUS_SUCCESS;
-}
-
-struct Destroy {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-  void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
-using Context = std::unique_ptr<cairo_t, Destroy>;
-
-void require(cairo_status_t status) {
-  if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(std::string("cannot draw a figure: ") + cairo_status_to_string(status));
-  }
-}
-
-void set_font(cairo_t* context, const TextStyle& style) {
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, style.size);
-  // Letters keep their width at any scale, so that PNG and SVG have one layout.
-  const std::unique_ptr<cairo_font_options_t, Destroy> options(cairo_font_options_create());
-  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
-  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
-  cairo_set_font_options(context, options.get());
-}
-
-double advance(cairo_t* context, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
-  return extents.x_advance;
-}
-
-void set_colour(cairo_t* context, Colour colour, double opacity) {
-  cairo_set_source_rgba(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
 }
 
 void stroke(cairo_t* context, const Pen& pen) {
@@ -63,18 +25,11 @@ void stroke(cairo_t* context, const Pen& pen) {
 
 }  // namespace
 
-double text_width(std::string_view text, const TextStyle& style) {
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
-  const Context context(cairo_create(surface.get()));
-  set_font(context.get(), style);
-  return advance(context.get(), valid_text(text));
-}
-
 struct Canvas::Impl {
   Format format;
   std::string bytes;  // before the surface, which may write to it at its end
-  Surface surface;
-  Context context;
+  CairoSurface surface;
+  CairoContext context;
 };
 
 Canvas::Canvas(Format format, double width, double height) : impl_(std::make_unique<Impl>()) {
@@ -132,21 +87,12 @@ void Canvas::ring(Point centre, double radius, const Pen& pen) {
 }
 
 void Canvas::text(Point at, std::string_view text, const TextStyle& style) {
-  cairo_t* context = impl_->context.get();
-  const std::string valid = valid_text(text);
-  cairo_save(context);
-  set_font(context, style);
-  set_colour(context, style.colour, 1);
-  cairo_translate(context, at.x, at.y);
-  if (style.upwards) cairo_rotate(context, -0.5 * std::numbers::pi);
-  cairo_move_to(context, -style.align * advance(context, valid), 0);
-  cairo_show_text(context, valid.c_str());
-  cairo_new_path(context);
-  cairo_restore(context);
+  draw_text(impl_->context.get(), at, text, style);
 }
 
 void Canvas::image(const Box& box, const Picture& picture) {
-  const Surface pixels(cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width(), picture.height()));
+  const CairoSurface pixels(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width(), picture.height()));
   require(cairo_surface_status(pixels.get()));
   const int stride = cairo_image_surface_get_stride(pixels.get()) / 4;
   auto* data = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(pixels.get()));

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "apps/draw/picture.hpp"
+#include "apps/text_style.hpp"
 
 namespace myowave::apps {
 
@@ -26,17 +27,6 @@ struct Pen {
   bool dashed = false;
   double opacity = 1;
 };
-
-struct TextStyle {
-  double size = 9;
-  bool bold = false;
-  double align = 0;      // part of the width that is left of the point: 0, 0.5 or 1
-  bool upwards = false;  // reads from below
-  Colour colour{30, 30, 30};
-};
-
-// The width of a text in the font of all figures, DejaVu Sans.
-double text_width(std::string_view, const TextStyle&);
 
 class Canvas {
  public:

@@ -37,7 +37,7 @@ std::array<Colour, 256> make_table() {
 
 Colour colour_of(double value) {
   static const auto table = make_table();
-  return table[static_cast<std::size_t>(std::lround(std::clamp(value, 0.0, 1.0) * (table.size() - 1)))];
+  return table[static_cast<std::size_t>(std::clamp(value, 0.0, 1.0) * (table.size() - 1) + 0.5)];
 }
 
 double luminance(const Colour& colour) {

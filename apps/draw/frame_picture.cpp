@@ -18,8 +18,9 @@ constexpr int margin = 16;
 constexpr int header = 48;
 constexpr int colour_bar_space = 84;
 constexpr int colour_bar_width = 18;
-constexpr double text_height = 17;
-constexpr double label_height = 12;
+constexpr TextStyle title_style{.size = 22};
+constexpr TextStyle label_style{.size = 16};
+constexpr double half_digit = 0.36 * label_style.size;  // of the height of digits in DejaVu Sans
 
 // How far the sheet leaves its place at rest, of its size: parts that contract turn it about its pin.
 constexpr double slack = 1.12;
@@ -60,7 +61,7 @@ FramePicture::FramePicture(const solver::Scene& scene)
 }
 
 void FramePicture::draw_labels(Picture& picture, Strokes& text, double t) const {
-  text.text({margin, header - 17.0}, text_height, fmt::format("t = {:.{}f} ms", t * ms_per_tu_, decimals_));
+  text.text({margin, header - 17.0}, fmt::format("t = {:.{}f} ms", t * ms_per_tu_, decimals_), title_style);
 
   const int left = margin + view_width_ + margin;
   const int height = std::min(view_height_ - 40, 320);
@@ -70,16 +71,15 @@ void FramePicture::draw_labels(Picture& picture, Strokes& text, double t) const 
     for (int x = left; x < left + colour_bar_width; ++x) picture.at(x, y) = colour;
   }
   const double l = left, r = left + colour_bar_width, b = bottom, u = top;
-  for (const auto& [from, to] : std::array<std::pair<Point, Point>, 4>{
-           {{{l, b}, {r, b}}, {{r, b}, {r, u}}, {{r, u}, {l, u}}, {{l, u}, {l, b}}}}) {
-    text.line(from, to, 1);
-  }
+  text.line(std::array<Point, 5>{{{l, b}, {r, b}, {r, u}, {l, u}, {l, b}}}, 1);
   for (const char* label : {"0", "0.5", "1"}) {
     const double y = bottom - std::stod(label) * height;
-    text.line({r, y}, {r + 5, y}, 1);
-    text.text({r + 10, y + 0.5 * label_height}, label_height, label);
+    text.line(std::array<Point, 2>{{{r, y}, {r + 5, y}}}, 1);
+    text.text({r + 10, y + half_digit}, label, label_style);
   }
-  text.text({l + 0.5 * (colour_bar_width - text_width(text_height, "V")) + 2, u - 12}, text_height, "V");
+  TextStyle above = title_style;
+  above.align = 0.5;
+  text.text({l + 0.5 * colour_bar_width, u - 12}, "V", above);
 }
 
 Picture FramePicture::draw(const solver::Frame& frame) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace myowave::apps {
 namespace {
@@ -79,16 +80,19 @@ void fill_element(Picture& picture, const Sheet& sheet, const SheetView& view, i
 
 void draw_lines(Picture& picture, Strokes& border, const Sheet& sheet, const SheetView& view, double width) {
   const int rows = rows_of(sheet.shape), columns = columns_of(sheet.shape);
-  const auto node = [&](int I, int J) { return node_pixel(sheet, view, I, J); };
   Strokes inner(picture);
+  std::vector<Point> line;
+  const auto draw = [&](bool outer) {
+    (outer ? border : inner).line(line, outer ? 2.2 * width : width);
+    line.clear();
+  };
   for (int I = 0; I <= rows; ++I) {
-    for (int J = 0; J <= columns; ++J) {
-      const bool outer_row = I == 0 || I == rows, outer_column = J == 0 || J == columns;
-      if (J < columns)
-        (outer_row ? border : inner).line(node(I, J), node(I, J + 1), outer_row ? 2.2 * width : width);
-      if (I < rows)
-        (outer_column ? border : inner).line(node(I, J), node(I + 1, J), outer_column ? 2.2 * width : width);
-    }
+    for (int J = 0; J <= columns; ++J) line.push_back(node_pixel(sheet, view, I, J));
+    draw(I == 0 || I == rows);
+  }
+  for (int J = 0; J <= columns; ++J) {
+    for (int I = 0; I <= rows; ++I) line.push_back(node_pixel(sheet, view, I, J));
+    draw(J == 0 || J == columns);
   }
   inner.paint_contrast(picture, 0.32);
 }

@@ -7,6 +7,7 @@
 
 #include "apps/draw/frame_shape.hpp"
 #include "apps/draw/picture.hpp"
+#include "apps/strokes.hpp"
 
 namespace myowave::apps {
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -46,18 +48,52 @@ TEST(Picture, SurvivesPng) {
 TEST(Strokes, ALineCoversItsWidthAndStaysInThePicture) {
   Picture picture(20, 20, white);
   Strokes strokes(picture);
-  strokes.line({-50, 10}, {70, 10}, 3);
-  strokes.line({5, -50}, {5, 70}, 3);
+  strokes.line(std::array<Point, 2>{{{-50, 10}, {70, 10}}}, 3);
+  strokes.line(std::array<Point, 2>{{{5, -50}, {5, 70}}}, 3);
   strokes.paint(picture, {0, 0, 0}, 0.5);
   EXPECT_EQ(picture.at(15, 10).red, 128);
   EXPECT_EQ(picture.at(15, 11).red, 128);
-  EXPECT_EQ(picture.at(15, 13).red, 255);
+  EXPECT_EQ(picture.at(15, 12).red, 255);
   EXPECT_EQ(picture.at(5, 10).red, 128) << "crossing strokes do not add up";
 }
 
-TEST(Strokes, AnUnknownCharacterIsAnError) {
-  Strokes strokes(Picture(9, 9, white));
-  EXPECT_THROW(strokes.text({0, 8}, 5, "\x7f"), std::logic_error);
+TEST(Strokes, ContrastDarkensLightGroundAndLightensDarkGround) {
+  for (const auto ground : {std::uint8_t(0), std::uint8_t(255)}) {
+    Picture picture(9, 9, {ground, ground, ground});
+    Strokes strokes(picture);
+    strokes.line(std::array<Point, 2>{{{-1, 4}, {9, 4}}}, 1);
+    strokes.paint_contrast(picture, 0.2);
+    EXPECT_EQ(picture.at(4, 4).red, ground == 0 ? 51 : 204);
+    EXPECT_EQ(picture.at(4, 6).red, ground);
+  }
+}
+
+// The box of all pixels that are not white: left, top, right, bottom.
+std::array<int, 4> inked(const Picture& picture) {
+  std::array<int, 4> box{picture.width(), picture.height(), -1, -1};
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x)
+      if (difference(picture.at(x, y), white) > 0)
+        box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
+  return box;
+}
+
+TEST(Strokes, ATextStandsOnItsBaseLineAndIsAlignedAsAsked) {
+  const auto drawn = [](double align) {
+    Picture picture(200, 60, white);
+    Strokes strokes(picture);
+    strokes.text({100, 40}, "t = 12", {.size = 20, .align = align});
+    strokes.paint(picture, {0, 0, 0}, 1);
+    return inked(picture);
+  };
+  const double width = text_width("t = 12", {.size = 20});
+  const auto left = drawn(0), middle = drawn(0.5), right = drawn(1);
+  EXPECT_NEAR(left[1], 40 - 0.73 * 20, 2) << "as high as a digit";
+  EXPECT_NEAR(left[3], 40, 1);
+  EXPECT_GE(left[0], 99);
+  EXPECT_NEAR(left[2], 100 + width, 4);
+  EXPECT_NEAR(middle[0], 100 - 0.5 * width, 4);
+  EXPECT_LE(right[2], 101);
 }
 
 solver::Scene scene_of(int rows, int columns, bool deforms) {
