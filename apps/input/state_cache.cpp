@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 
+#include "apps/base/content_hash.hpp"
 #include "apps/base/hdf5_handle.hpp"
 
 namespace myowave::apps {
@@ -16,13 +16,6 @@ namespace {
 
 // Changes when the files' layout does, so that older ones are left aside.
 constexpr int format_version = 1;
-
-// FNV-1a, 64 bit (Fowler, Noll, Vo): a name for a definition, not a protection.
-std::uint64_t fnv1a(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
 
 std::filesystem::path cache_folder() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
@@ -121,8 +114,8 @@ void keep_state(const std::filesystem::path& path, const std::string& definition
 std::filesystem::path cached_state_path(const std::string& name, const std::string& definition) {
   const auto folder = cache_folder();
   if (folder.empty()) return {};
-  return folder /
-         fmt::format("{}_{:016x}.h5", name, fnv1a(fmt::format("format {}\n{}", format_version, definition)));
+  const std::string hash = content_hash(fmt::format("format {}\n{}", format_version, definition));
+  return folder / fmt::format("{}_{}.h5", name, hash);
 }
 
 solver::InitialState cached_state(const std::filesystem::path& path, const std::string& definition,

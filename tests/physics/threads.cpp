@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <Kokkos_Core.hpp>
-#include <bit>
-#include <cstdint>
 #include <fstream>
+#include <initializer_list>
+#include <string>
 #include <utility>
 
+#include "apps/base/content_hash.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"
@@ -14,12 +15,12 @@
 namespace myowave {
 namespace {
 
-// FNV-1a of the bits.
-std::uint64_t hash(std::initializer_list<const std::vector<double>*> fields) {
-  std::uint64_t h = 0xcbf29ce484222325;
+// Of the bits.
+std::string hash(std::initializer_list<const std::vector<double>*> fields) {
+  std::string bytes;
   for (const auto* field : fields)
-    for (const double value : *field) h = (h ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3;
-  return h;
+    bytes.append(reinterpret_cast<const char*>(field->data()), field->size() * sizeof(double));
+  return apps::content_hash(bytes);
 }
 
 solver::Scene coupled_spiral(solver::Precision precision, solver::MetricForm metric) {
@@ -46,7 +47,7 @@ void write_report(const std::string& path) {
       sink.keep_fields = true;
       solver::RunSummary summary;
       const auto state = solver::run(scene, solver::make_initial_state(scene), sink, summary);
-      report << std::hex << hash({&state.V, &state.r, &state.Ta, &sink.nodes}) << std::dec << ' '
+      report << hash({&state.V, &state.r, &state.Ta, &sink.nodes}) << ' '
              << summary.mechanics.newton_iterations << '\n';
       for (const auto& sample : sink.tip_samples)
         for (const auto& tip : sample.tips)
