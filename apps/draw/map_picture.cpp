@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "apps/page.hpp"
+#include "apps/plot_axes.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -17,7 +20,7 @@ using solver::MapTable;
 
 // Layout, pixels.
 constexpr int plot_width = 300, plot_height = 240;
-constexpr int left = 66, right = 18, top = 34, bottom = 50;  // around a plot
+constexpr int left = 72, right = 18, top = 34, bottom = 50;  // around a plot
 constexpr int legend_line = 24, under_legend = 12;
 constexpr int panels_in_a_row = 2;
 
@@ -29,21 +32,6 @@ constexpr std::array<std::string_view, 7> colours{"#fbf1b8", "#fdd98f", "#fdb95e
 
 std::string_view colour_of_outcome(std::size_t outcome, std::size_t outcomes) {
   return outcomes < 2 ? colours.front() : colours[outcome * (colours.size() - 1) / (outcomes - 1)];
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char letter : text) {
-    if (letter == '&')
-      result += "&amp;";
-    else if (letter == '<')
-      result += "&lt;";
-    else if (letter == '>')
-      result += "&gt;";
-    else
-      result += letter;
-  }
-  return result;
 }
 
 std::size_t column_of(const MapTable& table, const std::string& name) {
@@ -61,9 +49,8 @@ double y_number(const MapTable& table, const solver::MapRow& row, const std::str
   return number(table, row, column) / (divisor.empty() ? 1 : number(table, row, divisor));
 }
 
-std::string with_unit(const MapTable& table, const std::string& name) {
-  const std::string& unit = table.columns[column_of(table, name)].unit;
-  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+const std::string& unit_of(const MapTable& table, const std::string& name) {
+  return table.columns[column_of(table, name)].unit;
 }
 
 std::string text_of(const solver::MapCell& cell) {
@@ -72,32 +59,18 @@ std::string text_of(const solver::MapCell& cell) {
   return text ? *text : "";
 }
 
-// An axis of a plot from values to pixels.
-struct Axis {
-  double low = 0, high = 1;
-  double from = 0, to = 1;  // pixels of low and high
-  bool logarithmic = false;
+// An axis of all panels, from values to pixels.
+struct MapAxis {
+  Axis axis;
+  AxisRange range{};        // in places
+  double from = 0, to = 1;  // pixels of the range's ends
 
-  double scaled(double value) const { return logarithmic ? std::log(value) : value; }
   double pixel(double value) const {
-    return from + (to - from) * (scaled(value) - scaled(low)) / (scaled(high) - scaled(low));
+    return from + (to - from) * (place_on(axis, value) - range.low) / range.length();
   }
-
-  // Round values, about five of them.
-  std::vector<double> ticks() const {
-    std::vector<double> values;
-    if (logarithmic) {
-      for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10)
-        for (const double digit : {1.0, 2.0, 5.0})
-          if (decade * digit >= low && decade * digit <= high) values.push_back(decade * digit);
-      return values;
-    }
-    const double rough = (high - low) / 5, decade = std::pow(10, std::floor(std::log10(rough)));
-    const double part = rough / decade;
-    const double step = decade * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
-    for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n)
-      values.push_back(n * step + 0.0);  // never -0
-    return values;
+  Ticks ticks() const {
+    constexpr int most = 6;
+    return axis.logarithmic ? decade_ticks(range, most) : round_ticks(range, most);
   }
 };
 
@@ -125,13 +98,13 @@ struct Rectangle {
   std::size_t outcome;
 };
 
-struct Panel {
+struct MapPanel {
   std::vector<Rectangle> cells;
   std::vector<std::map<double, double>> lines;  // y over x
 };
 
 // By title, in the order of the table.
-using Panels = std::vector<std::pair<std::string, Panel>>;
+using Panels = std::vector<std::pair<std::string, MapPanel>>;
 
 std::string panel_title(const MapTable& table, const solver::MapRow& row) {
   std::string title;
@@ -140,9 +113,9 @@ std::string panel_title(const MapTable& table, const solver::MapRow& row) {
   return title;
 }
 
-Panel make_panel(const MapTable& table, const std::vector<const solver::MapRow*>& rows) {
+MapPanel make_panel(const MapTable& table, const std::vector<const solver::MapRow*>& rows) {
   const solver::MapView& view = *table.view;
-  Panel panel{{}, std::vector<std::map<double, double>>(view.lines.size())};
+  MapPanel panel{{}, std::vector<std::map<double, double>>(view.lines.size())};
   std::vector<double> all_x;
   std::map<double, std::vector<double>> all_y;
   for (const auto* row : rows) {
@@ -176,39 +149,45 @@ Panels make_panels(const MapTable& table) {
 }
 
 // The same axes in all panels, so that they compare by eye.
-std::pair<Axis, Axis> common_axes(const Panels& panels, const solver::MapView& view) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  Axis x{none, -none, 0, plot_width, view.log_x}, y{none, -none, plot_height, 0, view.log_y};
+std::pair<MapAxis, MapAxis> common_axes(const Panels& panels, const MapTable& table) {
+  const solver::MapView& view = *table.view;
+  MapAxis x{{.label = view.x, .unit = unit_of(table, view.x), .logarithmic = view.log_x}};
+  MapAxis y{{.label = view.y, .unit = unit_of(table, view.y), .logarithmic = view.log_y}};
+  if (!view.y_in.empty()) y.axis.label += " / " + view.y_in, y.axis.unit.clear();
+  std::vector<double> x_places, y_places;
   for (const auto& [title, panel] : panels)
     for (const auto& cell : panel.cells) {
-      x.low = std::min(x.low, cell.x.first), x.high = std::max(x.high, cell.x.second);
-      y.low = std::min(y.low, cell.y.first), y.high = std::max(y.high, cell.y.second);
+      for (const double value : {cell.x.first, cell.x.second}) x_places.push_back(place_on(x.axis, value));
+      for (const double value : {cell.y.first, cell.y.second}) y_places.push_back(place_on(y.axis, value));
     }
+  x.range = axis_range(x.axis, x_places, 0), x.to = plot_width;
+  y.range = axis_range(y.axis, y_places, 0), y.from = plot_height, y.to = 0;
   return {x, y};
 }
 
 std::string label(double x, double y, std::string_view text, std::string_view attributes = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, attributes, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, attributes, html_escape(text));
 }
 
-std::string draw_axes(const MapTable& table, const Axis& x, const Axis& y) {
+std::string draw_axes(const MapAxis& x, const MapAxis& y) {
   std::string svg = fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#222\"/>\n",
                                 plot_width, plot_height);
-  for (const double value : x.ticks()) {
-    svg += fmt::format("<path d=\"M{0:.1f} {1}v5\" stroke=\"#222\"/>\n", x.pixel(value), plot_height);
-    svg += label(x.pixel(value), plot_height + 18, fmt::format("{:.6g}", value), "text-anchor=\"middle\"");
+  const Ticks x_ticks = x.ticks(), y_ticks = y.ticks();
+  for (std::size_t n = 0; n < x_ticks.values.size(); ++n) {
+    const double at = x.pixel(x_ticks.values[n]);
+    svg += fmt::format("<path d=\"M{:.1f} {}v5\" stroke=\"#222\"/>\n", at, plot_height);
+    svg += label(at, plot_height + 18, x_ticks.labels[n], "text-anchor=\"middle\"");
   }
-  for (const double value : y.ticks()) {
-    svg += fmt::format("<path d=\"M0 {:.1f}h-5\" stroke=\"#222\"/>\n", y.pixel(value));
-    svg += label(-8, y.pixel(value) + 4, fmt::format("{:.6g}", value), "text-anchor=\"end\"");
+  for (std::size_t n = 0; n < y_ticks.values.size(); ++n) {
+    const double at = y.pixel(y_ticks.values[n]);
+    svg += fmt::format("<path d=\"M0 {:.1f}h-5\" stroke=\"#222\"/>\n", at);
+    svg += label(-8, at + 4, y_ticks.labels[n], "text-anchor=\"end\"");
   }
-  const solver::MapView& view = *table.view;
-  const std::string y_label =
-      view.y_in.empty() ? with_unit(table, view.y) : fmt::format("{} / {}", view.y, view.y_in);
-  svg += label(0.5 * plot_width, plot_height + 38, with_unit(table, view.x), "text-anchor=\"middle\"");
+  svg += label(0.5 * plot_width, plot_height + 38, axis_text(x.axis, x_ticks.exponent),
+               "text-anchor=\"middle\"");
   svg += label(
-      0, 0, y_label,
-      fmt::format("text-anchor=\"middle\" transform=\"translate(-48 {}) rotate(-90)\"", plot_height / 2));
+      0, 0, axis_text(y.axis, y_ticks.exponent),
+      fmt::format("text-anchor=\"middle\" transform=\"translate(-54 {}) rotate(-90)\"", plot_height / 2));
   return svg;
 }
 
@@ -218,7 +197,7 @@ std::string line_style(std::size_t number) {
       line_dashes[number % line_dashes.size()]);
 }
 
-std::string draw_panel(const MapTable& table, const Panel& panel, const Axis& x, const Axis& y) {
+std::string draw_panel(const MapTable& table, const MapPanel& panel, const MapAxis& x, const MapAxis& y) {
   std::string svg = "<g stroke=\"#fff\" stroke-width=\"0.5\">\n";
   for (const auto& cell : panel.cells) {
     const double l = x.pixel(cell.x.first), r = x.pixel(cell.x.second);
@@ -233,7 +212,7 @@ std::string draw_panel(const MapTable& table, const Panel& panel, const Axis& x,
       points += fmt::format("{:.1f},{:.1f} ", x.pixel(at), y.pixel(value));
     svg += fmt::format("<polyline points=\"{}\" {}/>\n", points, line_style(n));
   }
-  return svg + draw_axes(table, x, y);
+  return svg + draw_axes(x, y);
 }
 
 struct Legend {
@@ -269,7 +248,7 @@ Legend draw_legend(const MapTable& table, int width) {
 
 std::string map_svg(const MapTable& table) {
   const Panels panels = make_panels(table);
-  const auto [x, y] = common_axes(panels, *table.view);
+  const auto [x, y] = common_axes(panels, table);
   const int across = std::min<int>(panels_in_a_row, static_cast<int>(panels.size()));
   const int down = (static_cast<int>(panels.size()) + across - 1) / across;
   constexpr int panel_width = left + plot_width + right, panel_height = top + plot_height + bottom;
@@ -281,7 +260,7 @@ std::string map_svg(const MapTable& table) {
       "font-family=\"sans-serif\" font-size=\"12\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
       "<clipPath id=\"plot\"><rect width=\"{4}\" height=\"{5}\"/></clipPath>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, escaped(table.name), escaped(table.caption), plot_width, plot_height);
+      width, height, html_escape(table.name), html_escape(table.caption), plot_width, plot_height);
   svg += legend.svg;
   for (int n = 0; n < static_cast<int>(panels.size()); ++n) {
     const auto& [title, panel] = panels[static_cast<std::size_t>(n)];
