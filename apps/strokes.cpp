@@ -1,11 +1,11 @@
-#include "apps/strokes.hpp"
+#include "apps/draw/strokes.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
-#include "apps/cairo_drawing.hpp"
+#include "apps/draw/cairo_drawing.hpp"
 
 namespace myowave::apps {
 namespace {

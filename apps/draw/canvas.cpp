@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/cairo_drawing.hpp"
+#include "apps/draw/cairo_drawing.hpp"
 
 namespace myowave::apps {
 namespace {

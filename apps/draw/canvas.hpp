@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "apps/draw/picture.hpp"
-#include "apps/text_style.hpp"
+#include "apps/draw/text_style.hpp"
 
 namespace myowave::apps {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/page.hpp"
-#include "apps/plot_axes.hpp"
+#include "apps/base/page.hpp"
+#include "apps/draw/plot_axes.hpp"
 
 namespace myowave::apps {
 namespace {

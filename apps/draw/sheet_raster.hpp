@@ -7,7 +7,7 @@
 
 #include "apps/draw/frame_shape.hpp"
 #include "apps/draw/picture.hpp"
-#include "apps/strokes.hpp"
+#include "apps/draw/strokes.hpp"
 
 namespace myowave::apps {
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "apps/report/difference_text.hpp"
 #include "solver/analysis/statistics.hpp"
 
 namespace myowave::apps {
@@ -35,6 +36,49 @@ std::map<int, TipPath> paths_of(const RunResults& run) {
 }
 
 }  // namespace
+
+std::vector<double> in_seconds(std::vector<double> tu) {
+  for (double& t : tu) t = to_seconds(t);
+  return tu;
+}
+
+std::vector<double> in_ms(std::vector<double> tu) {
+  for (double& t : tu) t *= ms_per_tu;
+  return tu;
+}
+
+std::string text_of(const solver::MeanSd& value, int decimals) {
+  if (value.n == 0) return "-";
+  if (value.n == 1) return fmt::format("{:.{}f}", value.mean, decimals);
+  return fmt::format("{:.{}f} +- {:.{}f}", value.mean, decimals, value.sd, decimals);
+}
+
+std::string count_text(const solver::MeanSd& value) { return fmt::format("n = {}", value.n); }
+
+std::string relative_difference(double ours, double papers) {
+  return fmt::format("{:+.1f} %", 100 * (ours / papers - 1));
+}
+
+std::string verdict(bool holds) { return holds ? "agrees" : "differs"; }
+
+Comparison period_row(std::string what, std::string paper, std::span<const double> periods_ms,
+                      double papers_mean) {
+  const auto ours = solver::mean_sd(periods_ms);
+  return {.what = std::move(what),
+          .paper = std::move(paper),
+          .ours = fmt::format("{} ms", text_of(ours, 1)),
+          .difference = relative_difference(ours.mean, papers_mean),
+          .samples = count_text(ours)};
+}
+
+Comparison test_row(std::string what, std::string paper, std::span<const double> a,
+                    std::span<const double> b) {
+  DifferenceText text = difference_text(a, b);
+  return {.what = std::move(what),
+          .paper = std::move(paper),
+          .ours = std::move(text.difference),
+          .samples = std::move(text.samples)};
+}
 
 Series tip_paths(const RunResults& run, std::string name) {
   Series series{.name = std::move(name)};

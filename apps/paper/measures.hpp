@@ -7,18 +7,39 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/paper/recipe.hpp"
+#include "apps/results/observables.hpp"
 #include "apps/draw/picture.hpp"
 #include "apps/draw/plot.hpp"
-#include "apps/paper/recipe.hpp"
-#include "apps/report/comparison.hpp"
-#include "apps/results/observed.hpp"
 #include "apps/results/run_results.hpp"
+#include "apps/results/sheet_picture.hpp"
+#include "apps/base/time_units.hpp"
+#include "solver/analysis/statistics.hpp"
 
 namespace myowave::apps {
 
-// A spiral turns in 269 ms, the paper's rescaled time.
+// A spiral turns in 26.9 t.u., 269 ms.
 inline constexpr double rotation_tu = 26.9;
 inline constexpr double shipped_dx = 0.6;  // length units; of all scenes of apps/scenes
+
+std::vector<double> in_seconds(std::vector<double> tu);
+std::vector<double> in_ms(std::vector<double> tu);
+
+// "26.85 +- 0.37"; one value: "26.85"; none: "-".
+std::string text_of(const solver::MeanSd&, int decimals);
+// "n = 144".
+std::string count_text(const solver::MeanSd&);
+// "+1.2 %" of the paper's number.
+std::string relative_difference(double ours, double papers);
+// What is said of a statement of the paper that holds here too, or does not.
+std::string verdict(bool holds);
+
+// A row of periods (ms) beside the paper's mean.
+Comparison period_row(std::string what, std::string paper, std::span<const double> periods_ms,
+                      double papers_mean);
+// A row of the difference of two series, a - b (difference_text).
+Comparison test_row(std::string what, std::string paper, std::span<const double> a,
+                    std::span<const double> b);
 
 // The paths of all tips in material coordinates, a gap between one and the next.
 Series tip_paths(const RunResults&, std::string name);

@@ -1,7 +1,7 @@
 // How a figure of the paper is made again: the runs that it needs, and what is drawn and told of them.
 //
-// A run is a scene of apps/scenes with some values of its own, a job of apps/paper/run_jobs.hpp. Figures
-// share runs: jobs of one name are the same.
+// A run is a scene of apps/scenes with some values of its own, a job of apps/paper/run_jobs.hpp. Figures share
+// runs: jobs of one name are the same.
 #pragma once
 
 #include <map>
@@ -13,10 +13,19 @@
 
 #include "apps/draw/plot.hpp"
 #include "apps/paper/run_jobs.hpp"
-#include "apps/report/comparison.hpp"
 #include "apps/results/run_results.hpp"
 
 namespace myowave::apps {
+
+// One number of the paper beside ours.
+struct Comparison {
+  std::string what;
+  std::string paper;  // or of an independent program; empty where neither gives it
+  std::string ours{};
+  std::string difference{};  // in words or per cent; empty where there is nothing to compare with
+  std::string samples{};     // what the number is a mean of
+  std::string why{};         // of a difference: the experiment that shows its cause
+};
 
 struct MadeFigure {
   std::string caption;

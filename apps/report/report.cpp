@@ -8,16 +8,15 @@
 #include <set>
 
 #include "apps/base/embedded_files.hpp"
+#include "apps/draw/figure.hpp"
+#include "apps/paper/measures.hpp"
 #include "apps/base/file_io.hpp"
 #include "apps/base/memory.hpp"
-#include "apps/base/page.hpp"
-#include "apps/draw/figure.hpp"
-#include "apps/report/comparison.hpp"
 #include "apps/report/movie.hpp"
+#include "apps/base/page.hpp"
 #include "apps/report/report_run.hpp"
 #include "apps/report/report_sheet.hpp"
 #include "apps/report/report_sweep.hpp"
-#include "apps/results/observed.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {

@@ -9,8 +9,8 @@
 #include <map>
 #include <optional>
 
-#include "apps/report/comparison.hpp"
-#include "apps/results/observed.hpp"
+#include "apps/base/time_units.hpp"
+#include "solver/analysis/statistics.hpp"
 
 namespace myowave::apps {
 namespace {

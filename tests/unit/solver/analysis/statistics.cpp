@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -28,6 +29,15 @@ std::vector<double> autoregressive(double phi, int n, unsigned seed) {
     x = phi * x + normal(bits);
   }
   return series;
+}
+
+TEST(MeanSd, IsOfTheFiniteValues) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const MeanSd result = mean_sd(std::vector{nan, 1.0, 3.0, std::numeric_limits<double>::infinity()});
+  EXPECT_EQ(result.n, 2);
+  EXPECT_EQ(result.mean, 2);
+  EXPECT_DOUBLE_EQ(result.sd, std::sqrt(2));
+  EXPECT_EQ(mean_sd({}).n, 0);
 }
 
 TEST(RunningStatistics, MeanAndSampleDeviationOfAHandCase) {

@@ -1,4 +1,4 @@
-#include "apps/cairo_drawing.hpp"
+#include "apps/draw/cairo_drawing.hpp"
 
 #include <numbers>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "apps/results/observed.hpp"
+#include "apps/results/observables.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Observables of finished runs, read from their files.
+// Numbers and series that a finished run left.
 #pragma once
 
 #include <span>
