@@ -55,8 +55,10 @@ void begin_at_phase(SceneText&, int start, int starts);
 // rotations.
 Point mean_tip(const RunResults&, double from);
 
-// Mean speed of the core of the longest path, its tip averaged over each rotation from `from` to `to` (t.u.);
-// length units/t.u. NaN where there are less than two rotations between.
+// Mean speed along the path of the core: of the longest trajectory, its tip averaged over each rotation from
+// `from` to `to` (t.u.); length units/t.u. NaN where there are less than two rotations between. The drift in
+// trajectories.csv (solver::TipDrift) is the slope of one straight line instead: of a core that follows an
+// edge around a corner it says little.
 double core_speed(const RunResults&, double from, double to);
 
 }  // namespace myowave::apps

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <toml++/toml.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +20,7 @@
 #include <thread>
 
 #include "apps/base/file_io.hpp"
+#include "apps/input/scene_tables.hpp"
 #include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 
@@ -203,16 +203,10 @@ class JobQueue {
 }  // namespace
 
 SceneText& SceneText::set(std::string_view key, std::string_view value) {
-  toml::table scene = toml::parse(text_);
-  const toml::table given = toml::parse(fmt::format("value = {}", value));
-  toml::node* place = &scene;
-  for (auto dot = key.find('.'); dot != std::string_view::npos; dot = key.find('.')) {
-    const std::string part(key.substr(0, dot));
-    place = place->is_array() ? place->as_array()->get(std::stoul(part))
-                              : &place->as_table()->insert(part, toml::table{}).first->second;
-    key.remove_prefix(dot + 1);
-  }
-  place->as_table()->insert_or_assign(key, *given.get("value"));
+  Problems problems("scene");
+  toml::table scene = parse_toml(text_, "scene", problems);
+  apply_override(scene, fmt::format("{}={}", key, value), problems);
+  problems.throw_if_any();
   std::ostringstream text;
   text << scene << '\n';
   text_ = text.str();

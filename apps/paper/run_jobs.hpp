@@ -19,9 +19,7 @@ namespace myowave::apps {
 class SceneText {
  public:
   explicit SceneText(std::string_view toml) : text_(toml) {}
-  // key: "section.key", or "stimulus.0.key" for an element of an array; value as TOML. Makes the section
-  // where there is none.
-  // Errors: std::exception where the text or the value is no TOML.
+  // As `--set key=value` (apps/input/scene_file.hpp). Errors: InputError where that leads nowhere.
   SceneText& set(std::string_view key, std::string_view value);
   const std::string& text() const { return text_; }
 
