@@ -26,7 +26,7 @@ room(kernels/observe SEES kernels/cell kernels/tissue kernels/elastic)
 
 # Excitation and mechanics do not see each other, nor the kernels of the other.
 room(solver/base SEES kernels/base)
-room(solver/scene SEES solver/base kernels/cell)
+room(solver/scene SEES solver/base kernels/cell kernels/elastic)
 room(solver/excitation SEES solver/scene kernels/cell kernels/tissue kernels/observe)
 list(REMOVE_ITEM sees_solver/excitation kernels/elastic)
 room(solver/mechanics/linear SEES solver/scene)

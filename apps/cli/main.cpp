@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "apps/cli/commands.hpp"
-#include "apps/input/did_you_mean.hpp"
 #include "apps/cli/help.hpp"
+#include "apps/input/did_you_mean.hpp"
 #include "apps/report/report.hpp"
 #include "apps/sweep/sweep.hpp"
 #include "apps/tradeoff/tradeoff.hpp"

@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/paper/recipe.hpp"
-#include "apps/results/observables.hpp"
+#include "apps/base/time_units.hpp"
 #include "apps/draw/picture.hpp"
 #include "apps/draw/plot.hpp"
+#include "apps/paper/recipe.hpp"
+#include "apps/results/observables.hpp"
 #include "apps/results/run_results.hpp"
 #include "apps/results/sheet_picture.hpp"
-#include "apps/base/time_units.hpp"
 #include "solver/analysis/statistics.hpp"
 
 namespace myowave::apps {

@@ -1,7 +1,7 @@
 // How a figure of the paper is made again: the runs that it needs, and what is drawn and told of them.
 //
-// A run is a scene of apps/scenes with some values of its own, a job of apps/paper/run_jobs.hpp. Figures share
-// runs: jobs of one name are the same.
+// A run is a scene of apps/scenes with some values of its own, a job of apps/paper/run_jobs.hpp. Figures
+// share runs: jobs of one name are the same.
 #pragma once
 
 #include <map>

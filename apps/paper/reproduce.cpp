@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "apps/input/did_you_mean.hpp"
-#include "apps/draw/figure.hpp"
 #include "apps/base/file_io.hpp"
 #include "apps/base/page.hpp"
+#include "apps/draw/figure.hpp"
+#include "apps/input/did_you_mean.hpp"
 #include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 

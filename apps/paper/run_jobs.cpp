@@ -20,7 +20,7 @@
 #include <thread>
 
 #include "apps/base/file_io.hpp"
-#include "apps/input/scene_tables.hpp"
+#include "apps/input/scene_overrides.hpp"
 #include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "apps/base/embedded_files.hpp"
 #include "apps/base/file_io.hpp"
-#include "apps/report/movie.hpp"
 #include "apps/base/page.hpp"
-#include "apps/report_html.hpp"
-#include "apps/report_parts.hpp"
+#include "apps/report/movie.hpp"
+#include "apps/report/report_html.hpp"
+#include "apps/report/report_parts.hpp"
 #include "apps/report/report_sweep.hpp"
 
 namespace myowave::apps {

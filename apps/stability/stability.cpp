@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "apps/input/did_you_mean.hpp"
 #include "apps/base/file_io.hpp"
 #include "apps/draw/map_picture.hpp"
+#include "apps/input/did_you_mean.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <set>
 
-#include "apps/sweep/axis_table.hpp"
 #include "apps/base/content_hash.hpp"
-#include "apps/input/did_you_mean.hpp"
 #include "apps/base/memory.hpp"
+#include "apps/input/did_you_mean.hpp"
 #include "apps/input/scene_tables.hpp"
 #include "apps/input/schema.hpp"
 #include "apps/results/summary_file.hpp"
+#include "apps/sweep/axis_table.hpp"
 #include "solver/base/error.hpp"
 #include "solver/run/stages.hpp"
 

@@ -12,12 +12,12 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/draw/figure.hpp"
 #include "apps/base/file_io.hpp"
-#include "apps/results/manifest.hpp"
 #include "apps/base/page.hpp"
+#include "apps/draw/figure.hpp"
 #include "apps/input/presets.hpp"
 #include "apps/input/schema.hpp"
+#include "apps/results/manifest.hpp"
 
 namespace myowave::apps {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/mechanics/equibiaxial.hpp"
 #include "solver/base/root_finding.hpp"
+#include "solver/mechanics/equibiaxial.hpp"
 
 namespace myowave::solver {
 

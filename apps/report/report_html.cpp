@@ -1,9 +1,9 @@
-#include "apps/report_html.hpp"
+#include "apps/report/report_html.hpp"
 
 #include <fmt/format.h>
 
-#include "apps/draw/figure.hpp"
 #include "apps/base/page.hpp"
+#include "apps/draw/figure.hpp"
 
 namespace myowave::apps {
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <set>
 
-#include "apps/report/difference_text.hpp"
-#include "apps/results/observables.hpp"
 #include "apps/base/page.hpp"
-#include "apps/report_html.hpp"
-#include "apps/report_parts.hpp"
+#include "apps/report/difference_text.hpp"
+#include "apps/report/report_html.hpp"
+#include "apps/report/report_parts.hpp"
+#include "apps/results/observables.hpp"
 
 namespace myowave::apps {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "apps/base/page.hpp"
-#include "apps/report_html.hpp"
-#include "apps/report_parts.hpp"
-#include "apps/report/report_sweep.hpp"
 #include "apps/base/time_units.hpp"
+#include "apps/report/report_html.hpp"
+#include "apps/report/report_parts.hpp"
+#include "apps/report/report_sweep.hpp"
 
 namespace myowave::apps {
 namespace {

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "apps/base/page.hpp"
-#include "apps/report_html.hpp"
-#include "apps/report_parts.hpp"
+#include "apps/report/report_html.hpp"
+#include "apps/report/report_parts.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {

@@ -7,8 +7,8 @@
 
 #include "apps/base/memory.hpp"
 #include "apps/base/page.hpp"
-#include "apps/report_html.hpp"
-#include "apps/report_parts.hpp"
+#include "apps/report/report_html.hpp"
+#include "apps/report/report_parts.hpp"
 #include "apps/report/report_sheet.hpp"
 
 namespace myowave::apps {
