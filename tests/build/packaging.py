@@ -34,6 +34,7 @@ libraries = {
     "cairo": ("cairo, DejaVu Sans", "cairo"),
     "GTest": ("GoogleTest", "googletest"),
     "benchmark": ("Google Benchmark", "benchmark"),
+    "Eigen3": ("Eigen", "eigen"),
 }
 
 # Package and lowest version of every depends_on.

@@ -1,9 +1,10 @@
 #include "tests/support/reference_mechanics.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -21,8 +22,11 @@ constexpr std::array<Corner, 4> corners{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
 
 double delta(int a, int b) { return a == b ? 1.0 : 0.0; }
 
+Eigen::Matrix2d matrix(const Tensor& a) { return Eigen::Matrix2d{{a[0][0], a[0][1]}, {a[1][0], a[1][1]}}; }
+Tensor tensor(const Eigen::Matrix2d& a) { return {{{a(0, 0), a(0, 1)}, {a(1, 0), a(1, 1)}}}; }
+
 // dPsi/dX_1, dPsi/dX_2 of the corner's bilinear function.
-std::array<double, 2> shape_gradient(const Corner& c, double h, double xi1, double xi2) {
+Eigen::Vector2d shape_gradient(const Corner& c, double h, double xi1, double xi2) {
   const double f1 = c.a1 == 1 ? xi1 : 1 - xi1, f2 = c.a2 == 1 ? xi2 : 1 - xi2;
   const double slope1 = c.a1 == 1 ? 1 : -1, slope2 = c.a2 == 1 ? 1 : -1;
   return {slope1 * f2 / h, f1 * slope2 / h};
@@ -58,48 +62,13 @@ std::vector<std::pair<int, int>> boundary_edges(const Mesh& mesh) {
 
 // C = F^T F and what the membrane's law needs of it.
 struct Strain {
-  Tensor C, C_inverse;
+  Eigen::Matrix2d C_inverse;
   double t, A, J;
 };
 
-Strain strain_of(const Tensor& F) {
-  Strain strain{};
-  for (int M = 0; M < 2; ++M)
-    for (int N = 0; N < 2; ++N) strain.C[M][N] = F[0][M] * F[0][N] + F[1][M] * F[1][N];
-  strain.C_inverse = inverse(strain.C);
-  strain.t = strain.C[0][0] + strain.C[1][1];
-  strain.A = determinant(strain.C);
-  strain.J = determinant(F);
-  return strain;
-}
-
-// Solves K d = b by Cholesky within the rows' envelope; nothing where K is not positive definite.
-std::optional<Values> cholesky_solve(Values K, Values b) {
-  const int n = static_cast<int>(b.size());
-  const auto at = [&](int i, int j) -> double& { return K[static_cast<std::size_t>(i) * n + j]; };
-  std::vector<int> first(n);
-  for (int i = 0; i < n; ++i) {
-    while (at(i, first[i]) == 0 && first[i] < i) ++first[i];
-    for (int j = first[i]; j <= i; ++j) {
-      double sum = at(i, j);
-      for (int k = std::max(first[i], first[j]); k < j; ++k) sum -= at(i, k) * at(j, k);
-      if (j < i) {
-        at(i, j) = sum / at(j, j);
-      } else {
-        if (!(sum > 0)) return std::nullopt;
-        at(i, i) = std::sqrt(sum);
-      }
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    for (int k = first[i]; k < i; ++k) b[i] -= at(i, k) * b[k];
-    b[i] /= at(i, i);
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    b[i] /= at(i, i);
-    for (int k = first[i]; k < i; ++k) b[k] -= at(i, k) * b[i];
-  }
-  return b;
+Strain strain_of(const Tensor& deformation) {
+  const Eigen::Matrix2d F = matrix(deformation), C = F.transpose() * F;
+  return {C.inverse(), C.trace(), C.determinant(), F.determinant()};
 }
 
 }  // namespace
@@ -114,21 +83,17 @@ Values undeformed(const Mesh& mesh) {
   return x;
 }
 
-double determinant(const Tensor& a) { return a[0][0] * a[1][1] - a[0][1] * a[1][0]; }
+double determinant(const Tensor& a) { return matrix(a).determinant(); }
 
-Tensor inverse(const Tensor& a) {
-  const double d = determinant(a);
-  return {{{a[1][1] / d, -a[0][1] / d}, {-a[1][0] / d, a[0][0] / d}}};
-}
+Tensor inverse(const Tensor& a) { return tensor(matrix(a).inverse()); }
 
 Tensor deformation_gradient(const Mesh& mesh, const Values& x, int I, int J, double xi1, double xi2) {
-  Tensor F{};
+  Eigen::Matrix2d F = Eigen::Matrix2d::Zero();
   for (const Corner& c : corners) {
-    const auto gradient = shape_gradient(c, mesh.h, xi1, xi2);
-    for (int i = 0; i < 2; ++i)
-      for (int M = 0; M < 2; ++M) F[i][M] += x[2 * mesh.node(I + c.a2, J + c.a1) + i] * gradient[M];
+    const int n = mesh.node(I + c.a2, J + c.a1);
+    F += Eigen::Vector2d(x[2 * n], x[2 * n + 1]) * shape_gradient(c, mesh.h, xi1, xi2).transpose();
   }
-  return F;
+  return tensor(F);
 }
 
 std::array<double, 2> mixed_derivative(const Mesh& mesh, const Values& x, int I, int J) {
@@ -161,15 +126,12 @@ Tensor stress(const MechanicsSettings& m, double Ta, const Tensor& F) {
   const Strain e = strain_of(F);
   const double w_t = m.c1 + m.c2 / e.A;
   const double w_A = -m.c1 / (e.A * e.A) + m.c2 * (1 - e.t / (e.A * e.A));
-  Tensor S{};
-  for (int M = 0; M < 2; ++M)
-    for (int N = 0; N < 2; ++N) S[M][N] = 2 * w_t * delta(M, N) + (2 * e.A * w_A + Ta) * e.C_inverse[M][N];
-  return S;
+  return tensor(2 * w_t * Eigen::Matrix2d::Identity() + (2 * e.A * w_A + Ta) * e.C_inverse);
 }
 
 std::array<std::array<Tensor, 2>, 2> stiffness(const MechanicsSettings& m, double Ta, const Tensor& F) {
   const Strain e = strain_of(F);
-  const Tensor& g = e.C_inverse;
+  const Tensor g = tensor(e.C_inverse);
   const double w_A = -m.c1 / (e.A * e.A) + m.c2 * (1 - e.t / (e.A * e.A));
   const double w_tA = -m.c2 / (e.A * e.A);
   const double w_AA = 2 * (m.c1 + m.c2 * e.t) / (e.A * e.A * e.A);
@@ -208,13 +170,10 @@ Values residual(const Mesh& mesh, const MechanicsSettings& m, const Values& Ta_g
   Values R(2 * mesh.nodes());
   for_each_gauss_point(mesh, [&](int I, int J, double xi1, double xi2, int q) {
     const Tensor F = deformation_gradient(mesh, x, I, J, xi1, xi2);
-    const Tensor S = stress(m, Ta_gauss[q], F);
+    const Eigen::Matrix2d P = matrix(F) * matrix(stress(m, Ta_gauss[q], F));  // first Piola-Kirchhoff
     for (const Corner& c : corners) {
-      const auto gradient = shape_gradient(c, mesh.h, xi1, xi2);
-      for (int j = 0; j < 2; ++j)
-        for (int M = 0; M < 2; ++M)
-          for (int N = 0; N < 2; ++N)
-            R[2 * mesh.node(I + c.a2, J + c.a1) + j] += gauss_weight(mesh) * F[j][N] * S[M][N] * gradient[M];
+      const Eigen::Vector2d force = gauss_weight(mesh) * P * shape_gradient(c, mesh.h, xi1, xi2);
+      for (int j = 0; j < 2; ++j) R[2 * mesh.node(I + c.a2, J + c.a1) + j] += force[j];
     }
   });
   const Values X = undeformed(mesh);
@@ -302,36 +261,34 @@ Values element_areas(const Mesh& mesh, const Values& x) {
 
 Values solve_equilibrium(const Mesh& mesh, const MechanicsSettings& m, const Values& Ta_gauss, Values x) {
   const std::vector<bool> held = held_coordinates(mesh, m);
-  const std::size_t size = x.size();
+  const auto size = static_cast<Eigen::Index>(x.size());
   double mu = 0;
   for (int iteration = 0; iteration < 60; ++iteration) {
-    Values R = residual(mesh, m, Ta_gauss, x);
-    double largest = 0;
-    for (std::size_t k = 0; k < size; ++k) {
+    const Values forces = residual(mesh, m, Ta_gauss, x);
+    Eigen::VectorXd R = Eigen::VectorXd::Map(forces.data(), size);
+    for (Eigen::Index k = 0; k < size; ++k)
       if (held[k]) R[k] = 0;
-      largest = std::max(largest, std::abs(R[k]));
-    }
-    if (largest / (10 * mesh.h) < m.tolerance) return x;
+    if (R.lpNorm<Eigen::Infinity>() / (10 * mesh.h) < m.tolerance) return x;
 
-    Values K = tangent(mesh, m, Ta_gauss, x);
-    for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t l = 0; l < size; ++l)
-        if (held[k] || held[l]) K[k * size + l] = k == l ? 1 : 0;
-    Values downhill(size);
-    for (std::size_t k = 0; k < size; ++k) downhill[k] = -R[k];
+    const Values full = tangent(mesh, m, Ta_gauss, x);
+    Eigen::MatrixXd K = Eigen::MatrixXd::Map(full.data(), size, size);  // symmetric: rows are columns
+    for (Eigen::Index k = 0; k < size; ++k)
+      if (held[k]) {
+        K.row(k).setZero();
+        K.col(k).setZero();
+        K(k, k) = 1;
+      }
 
     const double Pi = energy(mesh, m, Ta_gauss, x);
     const auto advance = [&] {
-      Values shifted = K;
-      for (std::size_t k = 0; k < size; ++k) shifted[k * size + k] += mu;
-      const auto d = cholesky_solve(shifted, downhill);
-      if (!d) return false;
-      double slope = 0;
-      for (std::size_t k = 0; k < size; ++k) slope += R[k] * (*d)[k];
+      const Eigen::LLT<Eigen::MatrixXd> cholesky(K + mu * Eigen::MatrixXd::Identity(size, size));
+      if (cholesky.info() != Eigen::Success) return false;  // not positive definite
+      const Eigen::VectorXd d = cholesky.solve(-R);
+      const double slope = R.dot(d);
       double s = 1;
       for (int halvings = 0; halvings <= 6; ++halvings, s /= 2) {
         Values trial = x;
-        for (std::size_t k = 0; k < size; ++k) trial[k] += s * (*d)[k];
+        Eigen::VectorXd::Map(trial.data(), size) += s * d;
         if (smallest_corner_J(mesh, trial) > 0 &&
             energy(mesh, m, Ta_gauss, trial) <= Pi + 1e-4 * s * slope + 1e-12 * std::abs(Pi)) {
           x = trial;

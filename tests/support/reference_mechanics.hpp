@@ -1,5 +1,5 @@
 // A plain serial reference of the membrane's equilibrium (Eqs 5-19, 21 with the plane-stress
-// closure): loops over indices, dense matrices, no Kokkos, nothing shared with kernels/ or solver/.
+// closure): loops over indices, Eigen's dense algebra, no Kokkos, nothing shared with kernels/ or solver/.
 // Written to be obviously right; meshes of up to a few hundred elements.
 //
 // Elements are squares of edge h, I along X2, J along X1; node (I, J) lies at X1 = J h, X2 = I h.

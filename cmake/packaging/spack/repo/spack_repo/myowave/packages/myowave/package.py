@@ -86,6 +86,8 @@ class Myowave(CMakePackage, CudaPackage, ROCmPackage):
         depends_on("py-numpy", type="build")
         depends_on("py-h5py~mpi", type="build")
     depends_on("benchmark@1.7:", type="build", when="+bench")
+    for part in ("tests", "bench"):
+        depends_on("eigen@3.4:", type="build", when=f"+{part}")
 
     def cmake_args(self):
         spec = self.spec
