@@ -21,6 +21,9 @@
 // forces is mostly indefinite at the old positions, and the two or three steps that its directions
 // take to come near the new equilibrium are saved.
 //
+// The factorisation has no pivoting. A definite K needs none; the direction of an indefinite one is checked
+// (DirectSolver::solve_checked), and where it does not solve its system, K is shifted as after a zero pivot.
+//
 // Everything here is serial and in a fixed order: the number of threads changes no decision.
 #pragma once
 
@@ -114,7 +117,7 @@ class Newton {
       report.converged = report.residual < settings_.tolerance;
       if (report.converged || report.iterations == settings_.max_iterations) return report;
 
-      if (std::exchange(start_has_factor, false) && descend(current, report)) {
+      if (std::exchange(start_has_factor, false) && find_direction({}, report) && descend(current, report)) {
         ++report.iterations;
         continue;
       }
@@ -135,23 +138,35 @@ class Newton {
     ++report.factorizations;
     report.last_shift = shift;
     if (shift > 0) ++report.shifts;
-    const Factorization factorization =
-        timed(report.time.factorize, [&] { return solver_.factorize(problem_.tangent(shift)); });
+    std::span<const double> tangent;
+    const Factorization factorization = timed(report.time.factorize, [&] {
+      tangent = problem_.tangent(shift);
+      return solver_.factorize(tangent);
+    });
     if (factorization == Factorization::failed) return false;
     if (factorization == Factorization::indefinite && report.residual < settings_.near_solution) return false;
-    return descend(current, report);
+    return find_direction(tangent, report) && descend(current, report);
   }
 
-  // The direction of the last factor and its line search; true where a step was accepted.
-  bool descend(Trial& current, NewtonReport& report) {
+  // direction_ = -K^-1 R by the last factor. `tangent` is what it was made from; empty: it is of an earlier
+  // tangent. false where the direction does not solve the system.
+  bool find_direction(std::span<const double> tangent, NewtonReport& report) {
     const auto residual = problem_.residual();
     direction_.resize(residual.size());
-    timed(report.time.triangular, [&] { solver_.solve(residual, direction_); });
+    const bool solved = timed(report.time.triangular, [&] {
+      if (!tangent.empty()) return solver_.solve_checked(tangent, residual, direction_);
+      solver_.solve(residual, direction_);
+      return true;
+    });
+    for (double& d : direction_) d = -d;
+    return solved;
+  }
+
+  // The line search along direction_; true where a step was accepted.
+  bool descend(Trial& current, NewtonReport& report) {
+    const auto residual = problem_.residual();
     double slope = 0;
-    for (std::size_t a = 0; a < residual.size(); ++a) {
-      direction_[a] = -direction_[a];
-      slope += residual[a] * direction_[a];
-    }
+    for (std::size_t a = 0; a < residual.size(); ++a) slope += residual[a] * direction_[a];
     if (!(slope < 0)) return false;
     problem_.set_direction(direction_);
     const double noise = settings_.energy_noise * (std::abs(current.energy) + settings_.energy_unit);

@@ -1,4 +1,5 @@
-// The direct solver against Eigen's and CHOLMOD's, on tangents of a sheet and on random matrices.
+// The direct solver against Eigen's and CHOLMOD's, on tangents of a sheet and on random matrices, and on
+// systems made to break a factorisation without pivoting.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -186,6 +187,128 @@ TEST_P(DirectSolverAccuracy, SolvesTangentsAsEigenAndCholmodDo) {
 
 TEST_P(DirectSolverAccuracy, SolvesRandomMatricesAsEigenAndCholmodDo) {
   for (const System& system : random_systems()) expect_accurate(system);
+}
+
+// Full, with a diagonal of that size: each pivot is about as small until rounding fills it.
+SymmetricMatrix small_diagonal(int size, double diagonal, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  SymmetricMatrix A;
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      A.column.push_back(j);
+      A.values.push_back(uniform(engine) * (i == j ? diagonal : 1));
+    }
+    A.row_begin.push_back(static_cast<int>(A.column.size()));
+  }
+  return A;
+}
+
+// Full, and its third row is the second one as far as the diagonal, where they differ by `gap`: so does the
+// third leading minor from zero. The matrix itself is as regular as a random one.
+SymmetricMatrix singular_minor(int size, double gap, unsigned seed) {
+  SymmetricMatrix A = small_diagonal(size, 1, seed);
+  const double* second = &A.values[A.row_begin[1]];
+  double* third = &A.values[A.row_begin[2]];
+  third[0] = second[0];
+  third[1] = second[1];
+  third[2] = second[1] + gap;
+  return A;
+}
+
+// [s I, B; B^T, -s I], as of a constraint that is hardly softened.
+SymmetricMatrix saddle(int size, double s, unsigned seed) {
+  SymmetricMatrix A = small_diagonal(size, s, seed);
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < i; ++j)
+      if ((i < size / 2) == (j < size / 2)) A.values[A.row_begin[i] + j] = 0;
+  return A;
+}
+
+// What became of the solutions of systems whose factors grow.
+struct Outcomes {
+  int left = 0, refined = 0, refused = 0;
+};
+
+void solve_where_factors_grow(const SymmetricMatrix& A, DirectSolver::Method method, Outcomes& outcomes) {
+  constexpr double bound = 1e-10;
+  DirectSolver solver(A.row_begin, A.column, method);
+  if (solver.factorize(A.values) == Factorization::failed) return;
+  const Vector b = product(A, random_vector(A.size(), 2));
+  Vector unchecked(A.size()), x(A.size());
+  solver.solve(b, unchecked);
+  if (!solver.solve_checked(A.values, b, x)) {
+    EXPECT_FALSE(relative_residual(A, b, unchecked) < 0.9 * bound);
+    ++outcomes.refused;
+    return;
+  }
+  EXPECT_LT(relative_residual(A, b, x), 1.1 * bound);
+  if (relative_residual(A, b, unchecked) < 0.9 * bound) {
+    EXPECT_EQ(x, unchecked);
+    ++outcomes.left;
+  } else {
+    ++outcomes.refined;
+  }
+}
+
+TEST_P(DirectSolverAccuracy, RefinesOrRefusesWhatAGrowingFactorGetsWrong) {
+  Outcomes outcomes;
+  for (const int size : {2, 5, 17, 63})
+    for (const double small : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16, 1e-20})
+      for (unsigned seed = 0; seed < 5; ++seed) {
+        solve_where_factors_grow(small_diagonal(size, small, seed), GetParam(), outcomes);
+        solve_where_factors_grow(saddle(size, small, seed), GetParam(), outcomes);
+        if (size > 2) solve_where_factors_grow(singular_minor(size, small, seed), GetParam(), outcomes);
+      }
+  EXPECT_GT(outcomes.left, 10);
+  EXPECT_GT(outcomes.refined, 10);
+  EXPECT_GT(outcomes.refused, 10);
+}
+
+TEST_P(DirectSolverAccuracy, LeavesAccurateSolutionsAsTheyAre) {
+  for (const System& system : tangents()) {
+    SCOPED_TRACE(system.name);
+    DirectSolver solver(system.A.row_begin, system.A.column, GetParam());
+    solver.factorize(system.A.values);
+    const Vector b = random_vector(system.A.size(), 3);
+    Vector unchecked(b.size()), x(b.size());
+    solver.solve(b, unchecked);
+    EXPECT_TRUE(solver.solve_checked(system.A.values, b, x));
+    EXPECT_EQ(x, unchecked);
+  }
+}
+
+// L D L^T with pivots over ten orders of magnitude, all positive: no check is made, because none is needed.
+TEST_P(DirectSolverAccuracy, SolvesDefiniteMatricesWithTinyPivots) {
+  constexpr int size = 24;
+  int definite = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    double L[size][size] = {}, D[size];
+    for (int i = 0; i < size; ++i) {
+      D[i] = std::pow(10.0, -10 * std::abs(uniform(engine)));
+      L[i][i] = 1;
+      for (int j = 0; j < i; ++j) L[i][j] = 0.3 * uniform(engine) / std::sqrt(D[j]);
+    }
+    SymmetricMatrix A;
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        A.column.push_back(j);
+        A.values.push_back(0);
+        for (int k = 0; k <= j; ++k) A.values.back() += L[i][k] * D[k] * L[j][k];
+      }
+      A.row_begin.push_back(static_cast<int>(A.column.size()));
+    }
+    DirectSolver solver(A.row_begin, A.column, GetParam());
+    if (solver.factorize(A.values) != Factorization::positive_definite) continue;  // by rounding
+    ++definite;
+    const Vector b = product(A, random_vector(size, seed));
+    Vector x(size);
+    EXPECT_TRUE(solver.solve_checked(A.values, b, x));
+    EXPECT_LT(relative_residual(A, b, x), 1e-8) << seed;
+  }
+  EXPECT_GT(definite, 50);
 }
 
 }  // namespace

@@ -25,8 +25,14 @@ class DirectSolver {
   // finite, and there is no factor.
   Factorization factorize(std::span<const double> values);
 
-  // solution = A^-1 rhs with the last factor.
+  // solution = A^-1 rhs with the last factor; its accuracy is not checked.
   void solve(std::span<const double> rhs, std::span<double> solution);
+
+  // The same with the values of the last factor, and checked: without pivoting, the entries of the factor of
+  // an indefinite matrix, and their rounding with them, can grow without bound. A solution with a residual of
+  // 1e-10 of max|A| |x| + |rhs| (sums of magnitudes) or more is refined once. false: it still has it, and is
+  // of no use.
+  bool solve_checked(std::span<const double> values, std::span<const double> rhs, std::span<double> solution);
 
  private:
   struct Impl;

@@ -130,6 +130,81 @@ TEST(Newton, StartsWithTheFactorOfTheLastMinimum) {
   EXPECT_NEAR(toy.x - c + toy.x * toy.x * toy.x, 0, 1e-8);
 }
 
+// Pi = x.B x / 2 + sum x_k^4 / 4 close to its saddle at 0: the diagonal of K is 3 x_k^2, far below the other
+// entries, and a factorisation without pivoting has no correct digit.
+struct NearSaddle {
+  static constexpr int n = 9;
+  std::vector<double> x = std::vector<double>(n), tried = x, direction = x, R = x, B, K;
+
+  NearSaddle() {
+    for (int i = 0; i < n; ++i) {
+      x[i] = 1e-7 * std::cos(i);
+      for (int j = 0; j < i; ++j) B.push_back(std::sin(3.0 * i + 7.0 * j));
+      B.push_back(0);
+    }
+  }
+  // Calls visit(i, j, slot) for the lower triangle.
+  template <class Visit>
+  static void for_each_entry(const Visit& visit) {
+    for (int i = 0, slot = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j, ++slot) visit(i, j, slot);
+  }
+  static std::vector<double> product(const std::vector<double>& A, const std::vector<double>& v) {
+    std::vector<double> result(n);
+    for_each_entry([&](int i, int j, int slot) {
+      result[i] += A[slot] * v[j];
+      if (i != j) result[j] += A[slot] * v[i];
+    });
+    return result;
+  }
+  Trial at(const std::vector<double>& y) const {
+    const auto By = product(B, y);
+    double energy = 0;
+    for (int i = 0; i < n; ++i) energy += y[i] * By[i] / 2 + std::pow(y[i], 4) / 4;
+    return {.energy = energy, .min_J = 1};
+  }
+  Trial evaluate() const { return at(x); }
+  void linearize() {
+    R = product(B, x);
+    for (int i = 0; i < n; ++i) R[i] += std::pow(x[i], 3);
+  }
+  std::span<const double> residual() const { return R; }
+  std::span<const double> tangent(double shift) {
+    K = B;
+    for_each_entry([&](int i, int j, int slot) { K[slot] += i == j ? 3 * x[i] * x[i] + shift : 0; });
+    return K;
+  }
+  void set_direction(std::span<const double> d) {
+    direction.assign(d.begin(), d.end());
+    const auto Kd = product(K, direction);
+    double wrong = 0, size = 0;
+    for (int i = 0; i < n; ++i) {
+      wrong += std::abs(Kd[i] + R[i]);
+      size += std::abs(d[i]) + std::abs(R[i]);
+    }
+    EXPECT_LT(wrong, 2e-10 * size);
+  }
+  Trial move(double length) {
+    for (int i = 0; i < n; ++i) tried[i] = x[i] + length * direction[i];
+    return at(tried);
+  }
+  void accept() { x = tried; }
+};
+
+TEST(Newton, FollowsNoDirectionThatDoesNotSolveItsSystem) {
+  NearSaddle saddle;
+  std::vector<int> row_begin{0}, column;
+  NearSaddle::for_each_entry([&](int i, int j, int) {
+    column.push_back(j);
+    if (i == j) row_begin.push_back(static_cast<int>(column.size()));
+  });
+  DirectSolver solver(row_begin, column);
+  const auto report = Newton(saddle, solver, {.tolerance = 1e-12, .near_solution = 1e-9}).minimise();
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.shifts, 0);
+  EXPECT_LT(report.energy, -1);
+}
+
 // The factor of a maximum leads uphill and is not used.
 TEST(Newton, AFactorThatLeadsUphillIsNotUsed) {
   Toy toy{.energy = [](double x) { return (x - 3) * (x - 3); },
