@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/direct_solver.hpp"
+#include "solver/mechanics/linear/direct_solver.hpp"
 #include "tests/support/reference_ldlt.hpp"
 #include "tests/support/reference_mechanics.hpp"
 
