@@ -10,18 +10,23 @@
 #
 # Kokkos installs the headers of every backend, and a few generated headers choose among them. Copies of these, edited
 # for the backend, go to WORK, first on the include path. Objects and reports stay in WORK. A source is compiled again
-# only if it or an included file changed. Exits with 77 if the compiler or its libraries are missing.
+# only if it or an included file changed. Reports of what compiled are also saved in
+# ${XDG_CACHE_HOME:-~/.cache}/myowave/device, under a hash of the preprocessed source, the flags and the compiler's
+# version: another build folder takes them from there. An empty list of sources is an error. Exits with 77 if the
+# compiler or its libraries are missing.
 set -euo pipefail
 
 backend=$1 architecture=$2 kokkos=$3 work=$4
 shift 4
 own_flags=()
-while [[ $1 == -* ]]; do
+while [[ ${1-} == -* ]]; do
   own_flags+=("$1")
   shift
 done
 project=$(realpath "$(dirname "$0")/..")
 overlay=$work/overlay
+cache=${XDG_CACHE_HOME:-${HOME:-$work}/.cache}/myowave/device
+[ $# -gt 0 ] || { echo "no sources to compile"; exit 1; }
 
 skip() { echo "skipped: $*"; exit 77; }
 
@@ -83,20 +88,44 @@ write_overlay() {
 is_fresh() {
   local files
   [ -f "$1" ] && [ "$1" -nt "$overlay/KokkosCore_config.h" ] || return
-  read -r -d '' -a files < <(sed -e 's/^[^:]*: //' -e 's/\\$//' "$1.d" && printf '\0')
+  mapfile -t files <"$1.files"
   [ -z "$(find "${files[@]}" -newer "$1" 2>&1)" ]
+}
+
+# What identifies a compilation: comments, line numbers and the place of the project do not matter.
+# The files that the source includes are named by the lines that begin with #.
+key_of() {
+  local source=$1 object=$2
+  "${command[@]}" -E "$source" >"$object.ii" 2>"$object.log" || return 1
+  sed -n 's/^# [0-9]* "\([^"<]*[^"/<]\)".*/\1/p' "$object.ii" | sort -u >"$object.files"
+  { printf '%s\n' "$compiler_version" "${command[@]:1}"; grep -v '^# [0-9]' "$object.ii" | tr -s '\n'; } |
+    sed -e "s#$work/##g" -e "s#$project/##g" | sha256sum | cut -d ' ' -f 1 || return 1
+  rm "$object.ii"
 }
 
 # Writes the time of the compilation to the object's .time.
 compile() {
-  local source=$1 object=$2 TIMEFORMAT='%U s'
-  { time "$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" "${own_flags[@]}" \
-    -MD -MF "$object.d" "$source" -o "$object.new" >"$object.log" 2>&1; } 2>"$object.time" || return 1
+  local source=$1 object=$2 key TIMEFORMAT='%U s'
+  key=$(key_of "$source" "$object") || return 1
+  if cp "$cache/$key.log" "$object.log" 2>/dev/null; then
+    touch "$cache/$key.log"
+    : >"$object"
+    echo "compiled before" >"$object.time"
+    return
+  fi
+  { time "${command[@]}" "$source" -o "$object.new" >"$object.log" 2>&1; } 2>"$object.time" || return 1
   mv "$object.new" "$object"
+  # A cache that cannot be written costs time only.
+  { cp "$object.log" "$cache/$key.$$" && mv "$cache/$key.$$" "$cache/$key.log"; } 2>/dev/null || true
 }
 
 "find_$backend"
 write_overlay
+command=("$compiler" "${flags[@]}" -std=c++20 -O3 -DNDEBUG -I"$project" -isystem "$overlay" -isystem "$kokkos" "${own_flags[@]}")
+# HIP's device libraries are linked and are no part of the preprocessed source.
+compiler_version=$("$compiler" --version; cat "${rocm:-/nowhere}/../versions" 2>/dev/null || true)
+mkdir -p "$cache" 2>/dev/null || true
+find "$cache" -name '*.log' -mtime +60 -delete 2>/dev/null || true
 # Folders may have files of the same name.
 object_of() {
   local name=${1#"$project"/}
