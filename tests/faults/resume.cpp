@@ -114,12 +114,14 @@ maps = true
 )";
 const std::string contracting = sheet + "element_areas = true\n[mechanics]\ninterval = 35\n";
 
-// In a memory file system if there is one: written data outlive the process as on a disk, without waiting for
-// the disk.
-const bool in_memory = access("/dev/shm", W_OK) == 0 && setenv("TMPDIR", "/dev/shm", 1) == 0;
-
 class ResumedCommand : public testing::Test {
  protected:
+  // In a memory file system if there is one: written data outlive the process as on a disk, without waiting
+  // for the disk.
+  static void SetUpTestSuite() {
+    if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);
+  }
+
   TemporaryFolder folder;
   fs::path scene = folder / "scene.toml", whole = folder / "whole", out = folder / "out";
   fs::path told = folder / "told.txt";
