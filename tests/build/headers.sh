@@ -10,6 +10,7 @@ while [ "$1" != -- ]; do
   shift
 done
 shift
+[ $# -gt 0 ] || { echo "no headers"; exit 1; }
 
 compile_alone() {
   local header=${!#}
