@@ -3,6 +3,10 @@
 include(CheckCXXCompilerFlag)
 
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# nvcc cannot precompile headers.
+if(myowave_backend STREQUAL "CUDA")
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
 add_library(myowave_options INTERFACE)
