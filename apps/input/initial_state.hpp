@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "solver/base/run_output.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace myowave::apps {
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "solver/base/run_output.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace myowave::apps {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/base/run_output.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace myowave::test {
 
