@@ -114,12 +114,13 @@ def line(name, row, base):
     >>> line("step/identity/float64/121", fast, [{"ms": 1.0, "cell_steps_per_s": 2e8}])
     '| `step/identity/float64/121` | 300 Mcell-steps/s | 67 | 200 | 1.50 | 50 |'
     >>> line("newton/solve/25", [{"ms": 1.0}], [{"ms": 11.0}])
-    '| `newton/solve/25` | 1.00 ms | 0 | 11.0 | 11.0 |  |'
+    '| `newton/solve/25` | 1.00 ms |  | 11.0 | 11.0 |  |'
     """
     counter, factor, unit = measured(row)
     value = median(row, counter)
     values = [result[counter] for result in row]
-    cells = [f"`{name}`", f"{digits(factor * value)} {unit}", f"{100 * (max(values) - min(values)) / value:.0f}"]
+    spread = f"{100 * (max(values) - min(values)) / value:.0f}" if len(values) > 1 else ""
+    cells = [f"`{name}`", f"{digits(factor * value)} {unit}", spread]
     if base:
         other = median(base, counter)
         gain = other / value if counter == "ms" else value / other
@@ -138,12 +139,12 @@ def wanted(name, rows):
 def table(run):
     """The lines of the table and the one above it that says where it was made."""
     context, rows = run["context"], repetitions(run["benchmarks"])
-    counts = sorted({len(row) for row in rows.values()})
+    counts = " or ".join(map(str, sorted({len(row) for row in rows.values()})))
     changed = " with changes" if context["git_dirty"] == "true" else ""
-    yield (f"{context['cpu']}, {context['threads']} threads, {context['compiler']}, Kokkos {context['kokkos']} "
-           f"({context['backend']}), revision {context['git_hash']}{changed}, {context['date'][:10]}; the triad at the "
-           f"start: {float(context['triad_bytes_per_s']) / 1e9:.1f} GB/s; medians of "
-           f"{' or '.join(map(str, counts))} repetitions.")
+    yield (f"Processor: {context['cpu']}; threads: {context['threads']}; compiler: {context['compiler']}; Kokkos "
+           f"{context['kokkos']}, {context['backend']}; revision {context['git_hash']}{changed}; date: "
+           f"{context['date'][:10]}; triad at the start: {float(context['triad_bytes_per_s']) / 1e9:.1f} GB/s; "
+           f"repetitions: {counts}.")
     yield ""
     yield "| row | median | spread, % | yardstick | times as fast | % of triad |"
     yield "|---|---|---|---|---|---|"
