@@ -1,4 +1,4 @@
-// Lines, letters and images on a page that is a PNG or an SVG: all that this program asks of cairo.
+// Lines, letters and images on a page that is a PNG or an SVG, drawn by cairo.
 #pragma once
 
 #include <cstdint>
