@@ -31,5 +31,5 @@ get_target_property(kernel_headers myowave_kernels HEADER_SET)
 get_target_property(solver_headers myowave_solver HEADER_SET)
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} apps/*.md bench/*.md cmake/*.md kernels/*.md solver/*.md
      tests/*.md)
-doxygen_add_docs(docs README.md ${pages} ${kernel_headers} ${solver_headers}
+doxygen_add_docs(docs README.md CONTRIBUTING.md ${pages} ${kernel_headers} ${solver_headers}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Writing ${PROJECT_BINARY_DIR}/docs/html")
