@@ -50,8 +50,8 @@ Supernodes find_supernodes(std::span<int> row_begin, std::span<int> column) {
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_METIS;
   common.postorder = true;
-  // Supernodes merge up to twice the widths of CHOLMOD's defaults, because their columns fill up tiles:
-  // a tenth faster at 25 x 25 to 100 x 100 elements.
+  // Supernodes merge up to twice the widths of CHOLMOD's defaults, so that their columns fill tiles
+  // (bench/HISTORY.md).
   for (auto& width : common.nrelax) width *= 2;
   for (auto& zeros : common.zrelax) zeros *= 2;
   cholmod_factor* factor = cholmod_analyze(&matrix, &common);
