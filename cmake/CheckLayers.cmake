@@ -2,7 +2,7 @@
 #
 # A file belongs to the room of its folder. A room includes itself and the rooms that it sees, which all stand on
 # lower floors. kernels/ is device code on Kokkos alone: no streams, containers, exceptions or mutable globals.
-# apps/ computes nothing itself: no parallel loop. SuiteSparse is named in one .cpp.
+# apps/ computes nothing itself: no parallel loop. SuiteSparse is named in one .cpp, Eigen in none.
 cmake_minimum_required(VERSION 3.25)
 
 # room(<name> SEES <room>...): the room sees those and all that they see.
@@ -85,6 +85,8 @@ function(check_include file number room name angled)
     report("${room} must not include ${target}")
   elseif(name MATCHES "^(tests|bench)/")
     report("${room} must not include ${name}")
+  elseif(name MATCHES "^(unsupported/)?Eigen/")
+    report("${room} must not include ${name}: Eigen is for tests and benchmarks")
   elseif(NOT target AND NOT angled AND EXISTS ${SOURCE}/${folder}/${name})
     report("include \"${name}\" by its path from the root")
   endif()

@@ -71,6 +71,8 @@ accepts(kernels/cell/a.hpp "// throw nothing, no std::vector")
 
 rejects(apps/cli/a.cpp "  Kokkos::parallel_for(n, f);" "no parallel loop in apps/")
 accepts(apps/cli/a.cpp "  Kokkos::ScopeGuard guard;")
+rejects(solver/base/a.cpp "#include <Eigen/Dense>" "solver/base must not include Eigen/Dense: Eigen is for tests")
+accepts(bench/a.cpp "#include <Eigen/SparseCholesky>")
 rejects(apps/cli/a.cpp "#include <suitesparse/cholmod.h>" "apps/cli/a.cpp, solver/mechanics/linear/direct_solver.cpp")
 rejects(solver/base/a.cpp "  cholmod_start(c);" "solver/base/a.cpp, solver/mechanics/linear/direct_solver.cpp")
 accepts(solver/base/a.cpp "#include <iostream>  // not cholmod.h")
