@@ -5,62 +5,49 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/support/reference_ldlt.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {
 namespace {
 
-// The full lower triangle of a band matrix in compressed rows.
-struct BandMatrix {
-  int n, band;
-  std::vector<int> row_begin{0}, column;
-  std::vector<double> values;
-
-  BandMatrix(int n_in, int band_in, double diagonal, unsigned seed) : n(n_in), band(band_in) {
-    test::Uniform uniform(seed);
-    for (int i = 0; i < n; ++i) {
-      for (int j = std::max(0, i - band); j <= i; ++j) {
-        column.push_back(j);
-        values.push_back(uniform(-1, 1) + (i == j ? diagonal : 0));
-      }
-      row_begin.push_back(static_cast<int>(column.size()));
+// With all entries of the band.
+reference::SymmetricMatrix band_matrix(int n, int band, double diagonal, unsigned seed) {
+  test::Uniform uniform(seed);
+  reference::SymmetricMatrix A;
+  for (int i = 0; i < n; ++i) {
+    for (int j = std::max(0, i - band); j <= i; ++j) {
+      A.column.push_back(j);
+      A.values.push_back(uniform(-1, 1) + (i == j ? diagonal : 0));
     }
+    A.row_begin.push_back(static_cast<int>(A.column.size()));
   }
-
-  std::vector<double> times(const std::vector<double>& x) const {
-    std::vector<double> y(n);
-    for (int i = 0; i < n; ++i)
-      for (int slot = row_begin[i]; slot < row_begin[i + 1]; ++slot) {
-        y[i] += values[slot] * x[column[slot]];
-        if (column[slot] != i) y[column[slot]] += values[slot] * x[i];
-      }
-    return y;
-  }
-};
+  return A;
+}
 
 // Sizes near multiples of the tile of eight columns, bands from none to full.
 TEST(BandedLdlt, SolvesEverySizeAndBand) {
   for (const int n : {1, 2, 7, 8, 9, 15, 16, 17, 40, 83})
     for (const int band : {0, 1, 2, 7, 8, 9, 20, 39, 82}) {
       if (band >= n) continue;
-      const BandMatrix A(n, band, 2.0 * band + 2, 100 * n + band);
+      const auto A = band_matrix(n, band, 2.0 * band + 2, 100 * n + band);
       BandedLdlt factor(A.row_begin, A.column);
       ASSERT_EQ(factor.factorize(A.values), Factorization::positive_definite) << n << ' ' << band;
       std::vector<double> x(n), found(n);
       for (int i = 0; i < n; ++i) x[i] = 1 + i % 3;
-      factor.solve(A.times(x), found);
+      factor.solve(product(A, x), found);
       for (int i = 0; i < n; ++i) ASSERT_NEAR(found[i], x[i], 1e-13) << n << ' ' << band << ' ' << i;
     }
 }
 
 TEST(BandedLdlt, FactorsAgainWithOtherValues) {
-  const BandMatrix A(50, 11, 30, 1), B(50, 11, 40, 2);
+  const auto A = band_matrix(50, 11, 30, 1), B = band_matrix(50, 11, 40, 2);
   BandedLdlt factor(A.row_begin, A.column);
   factor.factorize(A.values);
   factor.factorize(B.values);
   const std::vector<double> x(50, 1.0);
   std::vector<double> found(50);
-  factor.solve(B.times(x), found);
+  factor.solve(product(B, x), found);
   for (const double value : found) EXPECT_NEAR(value, 1, 1e-13);
 }
 

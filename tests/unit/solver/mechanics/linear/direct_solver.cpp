@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/mechanics/mesh.hpp"
+#include "tests/support/reference_ldlt.hpp"
 #include "tests/support/sheets.hpp"
 
 namespace myowave::solver {
@@ -48,23 +49,19 @@ TEST_P(DirectSolverBy, SolvesMeshes) {
   for (const auto& grid : {elastic::ElementGrid{25, 25, 6}, {1, 1, 6}, {2, 3, 6}, {1, 40, 6}, {40, 7, 6}}) {
     const Mesh mesh = make_mesh(grid, Edges::load);
     DirectSolver solver(mesh.row_begin, mesh.column, GetParam());
-    std::vector<double> A = mesh.gradient_product;
-    for (int row = 0; row < mesh.unknowns; ++row) A[mesh.row_begin[row + 1] - 1] += 0.1;
+    reference::SymmetricMatrix A{mesh.row_begin, mesh.column, mesh.gradient_product};
+    for (int row = 0; row < mesh.unknowns; ++row) A.values[mesh.row_begin[row + 1] - 1] += 0.1;
     // The second factorisation overwrites the first.
-    for (int time = 0; time < 2; ++time) ASSERT_EQ(solver.factorize(A), Factorization::positive_definite);
+    for (int time = 0; time < 2; ++time)
+      ASSERT_EQ(solver.factorize(A.values), Factorization::positive_definite);
     test::Uniform uniform(1);
-    std::vector<double> x(mesh.unknowns), b(mesh.unknowns), found(mesh.unknowns);
+    std::vector<double> x(mesh.unknowns), found(mesh.unknowns);
     for (double& v : x) v = uniform(-1, 1);
-    for (int row = 0; row < mesh.unknowns; ++row) {
-      for (int slot = mesh.row_begin[row]; slot < mesh.row_begin[row + 1]; ++slot) {
-        b[row] += A[slot] * x[mesh.column[slot]];
-        if (mesh.column[slot] != row) b[mesh.column[slot]] += A[slot] * x[row];
-      }
-    }
+    const std::vector<double> b = product(A, x);
     solver.solve(b, found);
     for (int a = 0; a < mesh.unknowns; ++a) EXPECT_NEAR(found[a], x[a], 1e-12);
-    for (double& value : A) value = -value;
-    EXPECT_EQ(solver.factorize(A), Factorization::indefinite);
+    for (double& value : A.values) value = -value;
+    EXPECT_EQ(solver.factorize(A.values), Factorization::indefinite);
     solver.solve(b, found);
     for (int a = 0; a < mesh.unknowns; ++a) EXPECT_NEAR(found[a], -x[a], 1e-12);
   }
