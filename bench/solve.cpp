@@ -1,9 +1,11 @@
 // The linear system and the whole solve, by elements a side:
 //   factorize | triangular_solve | analyze / E      newton / solve | plain / E
+//   factorize | triangular_solve / eigen | cholmod | supernodal / E: the same by others
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "bench/plain/newton.hpp"
@@ -13,6 +15,7 @@
 #include "solver/mechanics/linear/direct_solver.hpp"
 #include "solver/mechanics/mesh.hpp"
 #include "solver/mechanics/sparse_system.hpp"
+#include "tests/support/reference_ldlt.hpp"
 #include "tests/support/reference_mechanics.hpp"
 
 namespace myowave::bench {
@@ -43,15 +46,11 @@ struct LinearSystem {
     for (int a = 0; a < mesh.unknowns; ++a) rhs.push_back(std::sin(0.37 * a));
   }
 
+  reference::SymmetricMatrix matrix() const { return {mesh.row_begin, mesh.column, values}; }
+
   // max|A x - b| / max|b|
   double relative_residual(const std::vector<double>& x) const {
-    std::vector<double> left(x.size());
-    for (std::size_t row = 0; row < x.size(); ++row)
-      for (int k = mesh.row_begin[row]; k < mesh.row_begin[row + 1]; ++k) {
-        const auto column = static_cast<std::size_t>(mesh.column[k]);
-        left[row] += values[k] * x[column];
-        if (column != row) left[column] += values[k] * x[row];
-      }
+    const std::vector<double> left = product(matrix(), x);
     double largest = 0;
     for (std::size_t a = 0; a < x.size(); ++a) largest = std::max(largest, std::abs(left[a] - rhs[a]));
     return largest;
@@ -64,9 +63,7 @@ void report_unknowns(benchmark::State& state, double seconds, int unknowns) {
       static_cast<double>(unknowns) * static_cast<double>(state.iterations()) / seconds;
 }
 
-void check_solution(benchmark::State& state, const LinearSystem& system, solver::DirectSolver& solver) {
-  std::vector<double> x(system.rhs.size());
-  solver.solve(system.rhs, x);
+void check_solution(benchmark::State& state, const LinearSystem& system, const std::vector<double>& x) {
   const double residual = system.relative_residual(x);
   if (!(residual <= 1e-9)) fail(state, fmt::format("the solution leaves a residual of {}", residual));
 }
@@ -82,7 +79,9 @@ void time_factorize(benchmark::State& state, int elements) {
   solver::DirectSolver solver(system.mesh.row_begin, system.mesh.column);
   const double seconds = measure(state, 1, [&] { solver.factorize(system.values); });
   report_unknowns(state, seconds, system.mesh.unknowns);
-  check_solution(state, system, solver);
+  std::vector<double> x(system.rhs.size());
+  solver.solve(system.rhs, x);
+  check_solution(state, system, x);
 }
 
 void time_triangular_solve(benchmark::State& state, int elements) {
@@ -92,7 +91,34 @@ void time_triangular_solve(benchmark::State& state, int elements) {
   std::vector<double> x(system.rhs.size());
   const double seconds = measure(state, 1, [&] { solver.solve(system.rhs, x); });
   report_unknowns(state, seconds, system.mesh.unknowns);
-  check_solution(state, system, solver);
+  check_solution(state, system, x);
+}
+
+// The same system by Eigen, and by CHOLMOD through it.
+struct OtherSolver {
+  const char* name;
+  reference::Ldlt::Library library;
+};
+constexpr OtherSolver other_solvers[] = {{"eigen", reference::Ldlt::Library::eigen},
+                                         {"cholmod", reference::Ldlt::Library::cholmod},
+                                         {"supernodal", reference::Ldlt::Library::supernodal}};
+
+void time_other_factorize(benchmark::State& state, int elements, reference::Ldlt::Library library) {
+  const LinearSystem system(elements);
+  reference::Ldlt solver(library, system.matrix());
+  const double seconds = measure(state, 1, [&] { solver.factorize(system.values); });
+  report_unknowns(state, seconds, system.mesh.unknowns);
+  check_solution(state, system, solver.solve(system.rhs));
+}
+
+void time_other_triangular_solve(benchmark::State& state, int elements, reference::Ldlt::Library library) {
+  const LinearSystem system(elements);
+  reference::Ldlt solver(library, system.matrix());
+  solver.factorize(system.values);
+  std::vector<double> x;
+  const double seconds = measure(state, 1, [&] { x = solver.solve(system.rhs); });
+  report_unknowns(state, seconds, system.mesh.unknowns);
+  check_solution(state, system, x);
 }
 
 // The turbulent tensions forwards and backwards, so that every solve starts one interval from its solution.
@@ -188,12 +214,19 @@ void time_plain_newton(benchmark::State& state, int elements) {
 void register_solve(const Suite& suite) {
   for (const int elements : suite.sizes({12, 25, 50, 100, 250}, small_mesh)) {
     if (elements > largest_quick_mesh && !suite.large) continue;
-    const auto add = [=](const char* name, const auto& body) {
+    const auto add = [=](const std::string& name, const auto& body) {
       add_row(fmt::format("{}/{}", name, elements), [=](benchmark::State& state) { body(state, elements); });
     };
     add("analyze", time_analyze);
     add("factorize", time_factorize);
     add("triangular_solve", time_triangular_solve);
+    for (const auto& [name, library] : other_solvers) {
+      const auto by = [=, library = library](const auto& body) {
+        return [=](benchmark::State& state, int n) { body(state, n, library); };
+      };
+      add(fmt::format("factorize/{}", name), by(time_other_factorize));
+      add(fmt::format("triangular_solve/{}", name), by(time_other_triangular_solve));
+    }
     add("newton/plain", time_plain_newton);
     add("newton/solve", time_newton);
   }

@@ -62,7 +62,7 @@ std::unique_ptr<Ldlt::Solver> make_solver(Ldlt::Library library, const Symmetric
       return std::make_unique<SolverBy<Eigen::SimplicialLDLT<Sparse, Eigen::Upper>>>(A);
     case Ldlt::Library::cholmod:
       return std::make_unique<SolverBy<Eigen::CholmodSimplicialLDLT<Sparse, Eigen::Upper>>>(A);
-    case Ldlt::Library::cholmod_supernodal:
+    case Ldlt::Library::supernodal:
       return std::make_unique<SolverBy<Eigen::CholmodSupernodalLLT<Sparse, Eigen::Upper>>>(A);
   }
   return nullptr;

@@ -24,7 +24,7 @@ std::vector<double> eigenvalues(const SymmetricMatrix&);
 class Ldlt {
  public:
   // Eigen's and CHOLMOD's simplicial L D L^T, and CHOLMOD's supernodal L L^T of definite matrices alone.
-  enum class Library { eigen, cholmod, cholmod_supernodal };
+  enum class Library { eigen, cholmod, supernodal };
 
   // Analyses the pattern; the values are not used.
   Ldlt(Library, const SymmetricMatrix&);
