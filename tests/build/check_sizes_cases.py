@@ -114,7 +114,7 @@ class Sizes(unittest.TestCase):
         self.write("apps/README.md", 120)
         self.write("room/REFERENCE.md", 1000)
         self.write("tests/unit/long.cpp", 1000)
-        self.write("solver/run/run.cpp", 400)
+        self.write("solver/run.cpp", 400)
         self.write("solver/run/run.hpp", 300)
         self.function(60)
 
@@ -141,7 +141,7 @@ class Sizes(unittest.TestCase):
         self.expect()
 
     def test_what_is_over_it_fails(self):
-        for name, lines in (("README.md", 151), ("apps/README.md", 121), ("solver/run/run.cpp", 401),
+        for name, lines in (("README.md", 151), ("apps/README.md", 121), ("solver/run.cpp", 401),
                             ("solver/run/run.hpp", 301)):
             self.write(name, lines)
             self.expect(f"{name}: {lines} lines; ")
@@ -150,10 +150,10 @@ class Sizes(unittest.TestCase):
         self.expect("bench/main.cpp:4: main: 61 lines; a function has at most 60")
 
     def test_an_exception_holds_wherever_the_file_is_and_only_while_it_is_needed(self):
-        self.write("solver/run/run.cpp", 401)
-        self.expect(too_long=["solver/run/run.cpp"])
-        self.write("solver/run/run.cpp", 400)
-        self.expect("solver/run/run.cpp is no longer too long", too_long=["solver/run/run.cpp"])
+        self.write("solver/run.cpp", 401)
+        self.expect(too_long=["solver/run.cpp"])
+        self.write("solver/run.cpp", 400)
+        self.expect("solver/run.cpp is no longer too long", too_long=["solver/run.cpp"])
         self.function(61)
         self.expect(too_long=["bench/main.cpp:main"])
         self.function(60)

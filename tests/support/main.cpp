@@ -1,4 +1,5 @@
-// main of every test: Kokkos around GoogleTest. --file=tests/FOLDER/SUBJECT.cpp runs the tests of that source only.
+// main of every test: Kokkos around GoogleTest. --file=SOURCE, a path from the root, runs the tests of that
+// source only.
 #include <gtest/gtest.h>
 
 #include <Kokkos_Core.hpp>
