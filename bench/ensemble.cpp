@@ -12,6 +12,7 @@
 #include "bench/sheet.hpp"
 #include "bench/suite.hpp"
 #include "kernels/tissue/tiled_step.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::bench {

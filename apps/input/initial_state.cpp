@@ -14,6 +14,7 @@
 #include "apps/input/resample.hpp"
 #include "apps/input/state_cache.hpp"
 #include "solver/base/error.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::apps {

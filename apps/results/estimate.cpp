@@ -12,6 +12,7 @@
 
 #include "apps/input/initial_state.hpp"
 #include "apps/results/run_folder.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::apps {

@@ -10,6 +10,7 @@
 #include "apps/base/signals.hpp"
 #include "apps/input/initial_state.hpp"
 #include "apps/input/resample.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::apps {

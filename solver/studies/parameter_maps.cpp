@@ -10,6 +10,7 @@
 
 #include "kernels/elastic/kinematics.hpp"
 #include "solver/base/error.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::solver {

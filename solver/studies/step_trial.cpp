@@ -9,6 +9,7 @@
 #include "solver/excitation/select_model.hpp"
 #include "solver/excitation/stability.hpp"
 #include "solver/excitation/state_check.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::solver {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/coupling/electromechanics.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/allclose.hpp"
 

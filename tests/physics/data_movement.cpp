@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/coupling/electromechanics.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave {

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "solver/base/error.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"

@@ -12,6 +12,7 @@
 #include "kernels/observe/state_check.hpp"
 #include "solver/base/error.hpp"
 #include "solver/coupling/electromechanics.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/input/scene_file.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/make_plan.hpp"
 #include "solver/run/run.hpp"
 #include "solver/run/stages.hpp"

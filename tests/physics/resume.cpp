@@ -11,6 +11,7 @@
 
 #include "solver/base/error.hpp"
 #include "solver/run/checkpoint.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/random_run.hpp"

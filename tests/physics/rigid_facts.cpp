@@ -7,6 +7,7 @@
 
 #include "kernels/cell/aliev_panfilov.hpp"
 #include "solver/analysis/cell_protocol.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "solver/base/error.hpp"
 #include "solver/coupling/electromechanics.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/make_plan.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/allclose.hpp"

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/allclose.hpp"
 #include "tests/support/recording_sink.hpp"

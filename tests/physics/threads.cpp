@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/base/content_hash.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/recording_sink.hpp"

@@ -5,6 +5,7 @@
 
 #include "kernels/transfer/tension_to_gauss.hpp"
 #include "solver/mechanics/equilibrium.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 

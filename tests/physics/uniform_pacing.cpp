@@ -1,6 +1,7 @@
 // Fig 2a of the paper: maximal shortening under uniform pacing at 33 t.u.
 #include <gtest/gtest.h>
 
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/recording_sink.hpp"
 

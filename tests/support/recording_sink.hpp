@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 namespace myowave::test {

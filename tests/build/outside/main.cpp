@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "kernels/cell/aliev_panfilov.hpp"
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
 int main() {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 
+#include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
 
