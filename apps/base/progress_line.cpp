@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace myowave::apps {
 namespace {
@@ -36,8 +37,10 @@ std::string progress_text(const solver::Progress& p, double seconds, double ms_p
   return text + fmt::format("  tips {}", p.tips);
 }
 
-ProgressLine::ProgressLine(double ms_per_tu, bool quiet)
-    : ms_per_tu_(ms_per_tu), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(double ms_per_tu, bool quiet, std::string name)
+    : ms_per_tu_(ms_per_tu), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), name_(std::move(name)) {}
+
+std::string ProgressLine::title() const { return name_.empty() ? solver::stage_text(*stage_) : name_; }
 
 void ProgressLine::show(const solver::Progress& p) {
   using namespace std::chrono_literals;
@@ -59,7 +62,7 @@ void ProgressLine::show(const solver::Progress& p) {
     show_on_terminal(p, seconds);
   } else {
     if (!complete && waited < 10s && (waited < 1s || done < last_fraction_ + 0.1)) return;
-    fmt::print(stderr, "{}: {}\n", stage_, progress_text(p, seconds, ms_per_tu_));
+    fmt::print(stderr, "{}: {}\n", title(), progress_text(p, seconds, ms_per_tu_));
   }
   last_shown_ = now;
   last_fraction_ = done;
@@ -71,10 +74,10 @@ void ProgressLine::show_on_terminal(const solver::Progress& p, double seconds) {
   std::string bar;
   const auto filled = static_cast<std::size_t>(fraction(p) * cells);
   bar.append(filled, '#').append(cells - filled, '.');
-  auto line = fmt::format("{} [{}] {}", stage_, bar, progress_text(p, seconds, ms_per_tu_));
+  auto line = fmt::format("{} [{}] {}", title(), bar, progress_text(p, seconds, ms_per_tu_));
   const std::size_t width = terminal_width();
   // Without its bar where that makes it fit: a wrapped line cannot be rewritten.
-  if (line.size() >= width) line = fmt::format("{} {}", stage_, progress_text(p, seconds, ms_per_tu_));
+  if (line.size() >= width) line = fmt::format("{} {}", title(), progress_text(p, seconds, ms_per_tu_));
   if (line.size() >= width) line.resize(width - 1);
   fmt::print(stderr, "\r\x1b[K{}", line);
   std::fflush(stderr);

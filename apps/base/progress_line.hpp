@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "solver/base/run_output.hpp"
@@ -17,7 +18,8 @@ std::string progress_text(const solver::Progress&, double seconds, double ms_per
 
 class ProgressLine {
  public:
-  ProgressLine(double ms_per_tu, bool quiet);
+  // name: shown in place of the stage, if not empty.
+  ProgressLine(double ms_per_tu, bool quiet, std::string name = {});
   ~ProgressLine() { end(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -29,11 +31,13 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   void show_on_terminal(const solver::Progress&, double seconds);
+  std::string title() const;
 
   double ms_per_tu_;
   bool quiet_, terminal_;
   bool open_ = false;  // the terminal's line is not ended
-  std::string stage_;
+  std::string name_;
+  std::optional<solver::RunStage> stage_;
   Clock::time_point stage_start_, last_shown_;
   double last_fraction_ = 0;
 };

@@ -38,7 +38,7 @@ class SettlingProgress final : public solver::OutputSink {
   explicit SettlingProgress(solver::OutputSink& progress) : progress_(progress) {}
   void progress(const solver::Progress& p) override {
     solver::Progress told = p;
-    told.stage = "settling the spiral";
+    told.stage.kind = solver::RunStage::Kind::settling;
     progress_.progress(told);
   }
 

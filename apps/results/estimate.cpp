@@ -39,9 +39,9 @@ struct Enough {};
 // Follows one stage of a run, until it has been watched for long enough.
 class Trial final : public solver::OutputSink {
  public:
-  explicit Trial(std::string stage, solver::OutputSink& outputs,
-                 double budget_s = std::numeric_limits<double>::infinity())
-      : stage_(std::move(stage)), outputs_(outputs), budget_s_(budget_s), start_(Clock::now()) {}
+  Trial(solver::RunStage::Kind stage, solver::OutputSink& outputs,
+        double budget_s = std::numeric_limits<double>::infinity())
+      : stage_(stage), outputs_(outputs), budget_s_(budget_s), start_(Clock::now()) {}
 
   // The time from the start of the trial to the end of the stage at t_end.
   double extrapolated(double t_end) const {
@@ -60,7 +60,7 @@ class Trial final : public solver::OutputSink {
 
   // First at t = 0, when the sheet is made, solved and shown: that is done once.
   void progress(const solver::Progress& now) override {
-    if (now.stage != stage_) return;
+    if (now.stage.kind != stage_) return;
     last_ = now;
     last_s_ = seconds_since(start_);
     if (now.t == 0) first_s_ = last_s_;
@@ -68,7 +68,7 @@ class Trial final : public solver::OutputSink {
   }
 
  private:
-  std::string stage_;
+  solver::RunStage::Kind stage_;
   solver::OutputSink& outputs_;
   double budget_s_;
   Clock::time_point start_;
@@ -97,7 +97,7 @@ double seconds_of_begin(solver::Scene scene, solver::InitialState& state) {
   const double t_end = std::exchange(scene.time.t_end, begin_of(scene.time.t_end, scene));
   solver::OutputSink nowhere;
   solver::RunSummary summary;
-  Trial trial("run", nowhere);
+  Trial trial(solver::RunStage::Kind::scene, nowhere);
   state = solver::run(scene, std::move(state), trial, summary);
   return trial.extrapolated(t_end);
 }
@@ -109,7 +109,7 @@ double seconds_of_precondition(solver::Scene scene, const solver::Precondition& 
   scene.initial.preconditions[0].duration = begin_of(one.duration, scene);
   solver::OutputSink nowhere;
   solver::RunSummary summary;
-  Trial trial("precondition 1 of 1", nowhere);
+  Trial trial(solver::RunStage::Kind::precondition, nowhere);
   state = solver::run(scene, std::move(state), trial, summary);
   return trial.extrapolated(one.duration);
 }
@@ -118,7 +118,7 @@ double seconds_with_outputs(const solver::Scene& scene, solver::InitialState sta
   const TemporaryFolder temporary;
   RunFolder folder(temporary.path(), scene, true, true);
   solver::RunSummary summary;
-  Trial trial("run", folder, watched_s);
+  Trial trial(solver::RunStage::Kind::scene, folder, watched_s);
   try {
     solver::run(scene, std::move(state), trial, summary);
   } catch (const Enough&) {

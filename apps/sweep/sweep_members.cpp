@@ -27,8 +27,9 @@ class MemberSink final : public solver::OutputSink {
   void progress(const solver::Progress& now) override {
     if (given_up_) throw solver::Interrupted("another run of the sweep has ended it");
     // A spiral that is settled for the user's cache is a run of its own, which nobody else asks to stop.
-    if (now.stage == "settling the spiral" && stop_requested()) throw solver::Interrupted("stopped");
-    if (progress_ != nullptr && now.stage == "run" && now.t_end > 0)
+    if (now.stage.kind == solver::RunStage::Kind::settling && stop_requested())
+      throw solver::Interrupted("stopped");
+    if (progress_ != nullptr && now.stage.kind == solver::RunStage::Kind::scene && now.t_end > 0)
       progress_->come(index_, now.t / now.t_end);
   }
 

@@ -49,8 +49,7 @@ class SceneRecorder final : public solver::OutputSink {
       : dt_(scene.time.dt),
         solve_every_(scene.mechanics ? scene.mechanics->interval * dt_ : 0),
         half_(sampling.half),
-        name_(std::move(name)),
-        line_(scene.time.ms_per_tu, is_quiet()) {}
+        line_(scene.time.ms_per_tu, is_quiet(), std::move(name)) {}
 
   void tips(double t, std::span<const solver::Tip> found) override {
     t_ = t;
@@ -66,17 +65,12 @@ class SceneRecorder final : public solver::OutputSink {
     times.push_back(solved);
     values.push_back(total);
   }
-  void progress(const solver::Progress& progress) override {
-    solver::Progress told = progress;
-    told.stage = name_;
-    line_.show(told);
-  }
+  void progress(const solver::Progress& progress) override { line_.show(progress); }
 
   Measures measures;
 
  private:
   double dt_, solve_every_, half_, t_ = 0;
-  std::string name_;
   ProgressLine line_;
 };
 

@@ -12,6 +12,7 @@
 #include "solver/base/activation_maps.hpp"
 #include "solver/base/beat.hpp"
 #include "solver/base/plan.hpp"
+#include "solver/base/run_stage.hpp"
 #include "solver/base/sample_statistics.hpp"
 #include "solver/base/tips.hpp"
 
@@ -40,7 +41,7 @@ struct Frame {
 struct Progress {
   double t = 0;
   double t_end = 0;
-  std::string stage;  // "settling the spiral", "precondition 1 of 2", "run"
+  RunStage stage;
   double cell_steps_per_s = 0;
   std::int64_t newton_iterations = 0;  // in total
   int tips = 0;                        // at the last look

@@ -62,8 +62,8 @@ InitialState run_preconditions(const Scene& scene, InitialState state, OutputSin
   for (std::size_t n = saved ? saved->stage : 0; n < preconditions; ++n) {
     RunSummary own;
     StateReader* const from = saved && saved->stage == n ? &saved->reader : nullptr;
-    const StageRole role{n, fmt::format("precondition {} of {}", n + 1, preconditions), false};
-    state = run_stage({stages[n], control, sink, own, summary, role}, std::move(state), from);
+    const RunStage stage{RunStage::Kind::precondition, n, preconditions};
+    state = run_stage({stages[n], control, sink, own, summary, stage}, std::move(state), from);
     summary.precondition_s += own.wall_s;
   }
   return state;
@@ -71,16 +71,17 @@ InitialState run_preconditions(const Scene& scene, InitialState state, OutputSin
 
 InitialState run_preconditioned(const Scene& scene, InitialState state, OutputSink& sink, RunSummary& summary,
                                 const RunControl& control) {
-  const std::size_t stage = scene.initial.preconditions.size();
+  const std::size_t preconditions = scene.initial.preconditions.size();
+  const RunStage stage{RunStage::Kind::scene, preconditions, preconditions};
   auto saved = saved_of(control, scene);
-  const bool goes_on = saved && saved->stage == stage;
+  const bool goes_on = saved && saved->stage == stage.number;
   if (goes_on) state = blank_state(scene);
   require_runnable(scene, state);
   flush_denormals(control.execution.host);
   summary.plan = make_plan(scene);
   if (!goes_on)
     for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
-  return run_stage({scene, control, sink, summary, summary, {stage, "run", true}}, std::move(state),
+  return run_stage({scene, control, sink, summary, summary, stage}, std::move(state),
                    goes_on ? &saved->reader : nullptr);
 }
 

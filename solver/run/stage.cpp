@@ -34,7 +34,7 @@ class Stage {
         sink_(context.sink),
         summary_(context.summary),
         whole_(context.whole),
-        role_(context.role),
+        stage_(context.stage),
         schedule_(context.scene),
         observers_(context.scene) {}
 
@@ -76,7 +76,7 @@ class Stage {
       keep_if_due(sheet);
       const std::int64_t first = step_;
       step_to(sheet, schedule_.next(step_));
-      if (role_.observed) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
+      if (observed()) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
       show_beats();
       arrive(sheet);
     }
@@ -90,7 +90,7 @@ class Stage {
     }
     look_at_tension(sheet);
     look_at_ellipticity();
-    if (role_.observed) sample(sheet);
+    if (observed()) sample(sheet);
     report_progress();
   }
 
@@ -99,14 +99,14 @@ class Stage {
     const double every = scene_.output.checkpoint_every;
     const bool due = every > 0 && static_cast<double>(step_ - kept_) * scene_.time.dt >= every - 1e-9;
     if (control_.checkpoints && (stop || due)) keep(sheet, stop);
-    if (stop) throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", role_.name, t()));
+    if (stop) throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", stage_text(stage_), t()));
   }
 
   // A run that goes on loses nothing by a checkpoint that cannot be written: the one before is still there,
   // and the next may find room again.
   void keep(Sheet& sheet, bool stop) {
     StateWriter writer;
-    writer(role_.number, seconds_since(start_) + wall_before_);
+    writer(stage_.number, seconds_since(start_) + wall_before_);
     state(writer);
     sheet.save(writer);
     output([&] {
@@ -272,8 +272,8 @@ class Stage {
     constexpr double every_s = 0.1;
     if (step_ != 0 && step_ != schedule_.last && seconds_since(last_report_) < every_s) return;
     last_report_ = Clock::now();
-    sink_.progress({t(), scene_.time.t_end, role_.name, cell_steps_per_s(),
-                    summary_.mechanics.newton_iterations, tips_});
+    sink_.progress(
+        {t(), scene_.time.t_end, stage_, cell_steps_per_s(), summary_.mechanics.newton_iterations, tips_});
   }
 
   // The summary first: it is to be told also where an output fails.
@@ -281,7 +281,7 @@ class Stage {
     observe([&] { observers_.finish(); });
     update_summary(sheet);
     show_beats();
-    if (role_.observed) show_ended_trajectories();
+    if (observed()) show_ended_trajectories();
     if (scene_.output.maps) show_maps(sheet.activation_maps());
   }
 
@@ -296,13 +296,15 @@ class Stage {
     whole_.largest_substeps = std::max<std::int64_t>(whole_.largest_substeps, largest_substeps_);
     warn(sink_, whole_,
          fmt::format("{}: {} of {} steps were taken in parts, at most {}, because dt = {} was unstable",
-                     role_.name, substepped_steps_, step_, largest_substeps_, scene_.time.dt));
+                     stage_text(stage_), substepped_steps_, step_, largest_substeps_, scene_.time.dt));
   }
 
   double cell_steps_per_s() const {
     return static_cast<double>(step_) * scene_.grid.rows * scene_.grid.columns /
            (seconds_since(start_) + wall_before_);
   }
+
+  bool observed() const { return stage_.kind == RunStage::Kind::scene; }
 
   double t() const { return static_cast<double>(step_) * scene_.time.dt; }
 
@@ -311,7 +313,7 @@ class Stage {
   OutputSink& sink_;
   RunSummary& summary_;
   RunSummary& whole_;
-  StageRole role_;
+  RunStage stage_;
   Schedule schedule_;
   Observers observers_;
   std::int64_t step_ = 0;

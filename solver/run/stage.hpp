@@ -10,12 +10,6 @@
 
 namespace myowave::solver {
 
-struct StageRole {
-  std::size_t number;  // from 0, preconditions first
-  std::string name;
-  bool observed;  // a precondition is not
-};
-
 // References to what the caller holds while the stage runs.
 struct StageContext {
   const Scene& scene;
@@ -23,7 +17,7 @@ struct StageContext {
   OutputSink& sink;
   RunSummary& summary;  // of the stage
   RunSummary& whole;    // of the run that the stage is a part of: takes its warnings and substeps
-  StageRole role;
+  RunStage stage;
 };
 
 // Runs the stage from the initial state, or, if `saved` is not null, from the state that it reads.

@@ -236,11 +236,12 @@ TEST(ResumeOfAPrecondition, IsBitwiseARunThatWasNeverStopped) {
   // Stops when the run reports its stage.
   struct InStage : Transcript {
     std::atomic<bool> stop = false;
-    std::string stage;
+    solver::RunStage stage;
     void progress(const solver::Progress& p) override { stop = stop || p.stage == stage; }
   };
-  for (const std::string stage : {"precondition 1 of 2", "precondition 2 of 2"}) {
-    SCOPED_TRACE(stage);
+  for (const std::size_t number : {0, 1}) {
+    const solver::RunStage stage{solver::RunStage::Kind::precondition, number, 2};
+    SCOPED_TRACE(solver::stage_text(stage));
     const test::TemporaryFolder folder;
     InStage told;
     told.stage = stage;
