@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
-  solver::flush_denormals();
+  const solver::FlushDenormals flush;
   if (!only_lists) measure_machine(suite);
   add_context(suite);
 

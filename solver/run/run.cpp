@@ -57,7 +57,7 @@ InitialState run_preconditions(const Scene& scene, InitialState state, OutputSin
   require_runnable(scene, state);
   const std::vector<Scene> stages = stages_of(scene);
   if (!saved) require_clean_start(stages.front(), state);
-  flush_denormals(control.execution.host);
+  const FlushDenormals flush(control.execution.host);
   const std::size_t preconditions = stages.size() - 1;
   for (std::size_t n = saved ? saved->stage : 0; n < preconditions; ++n) {
     RunSummary own;
@@ -77,7 +77,7 @@ InitialState run_preconditioned(const Scene& scene, InitialState state, OutputSi
   const bool goes_on = saved && saved->stage == stage.number;
   if (goes_on) state = blank_state(scene);
   require_runnable(scene, state);
-  flush_denormals(control.execution.host);
+  const FlushDenormals flush(control.execution.host);
   summary.plan = make_plan(scene);
   if (!goes_on)
     for (const auto& text : warnings_of(scene)) warn(sink, summary, text);

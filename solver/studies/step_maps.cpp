@@ -146,7 +146,7 @@ const char* const what_is_run =
 
 MapTable map_of_steps(std::string name, const std::string& caption, MapColumn deformation,
                       const std::vector<DeformedSheet>& sheets, const MapProgress& progress) {
-  flush_denormals();
+  const FlushDenormals flush;
   MapTable table{std::move(name), caption + what_is_run, {}, {"right", "wrong", "blown up"}, {}, {}, {}};
   table.view = MapView{{"form", "precision"},
                        deformation.name,

@@ -28,7 +28,7 @@ struct PlainSheet {
         V_next("V_next", 1, state.rows, state.columns),
         r(to_view<double>(state.rows, state.columns, {state.r})),
         Ta(to_view<double>(state.rows, state.columns, {state.Ta})) {
-    solver::flush_denormals();
+    const solver::FlushDenormals flush;
     const int cells = scene.mechanics->cells_per_element;
     const Sheet sheet{state.rows, state.columns, cells, scene.grid.dx};
     auto form =

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 
+#include "solver/base/error.hpp"
 #include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 #include "tests/support/own_process.hpp"
@@ -47,17 +48,64 @@ int threads_with_denormals() {
   return count;
 }
 
-TEST(Denormals, AreFlushedOnEveryThread) {
+TEST(Denormals, AreFlushedOnEveryThreadWhileTheGuardExists) {
   if (const std::string path = test::report_path(); !path.empty()) {
     std::ofstream report(path);
     report << threads_with_denormals();
-    flush_denormals();
+    {
+      const FlushDenormals flush;
+      report << ' ' << threads_with_denormals();
+      { const FlushDenormals again; }
+      report << ' ' << threads_with_denormals();
+    }
     report << ' ' << threads_with_denormals();
     return;
   }
-  EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=1"), "1 0");
+  EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=1"), "1 0 0 1");
   if (Kokkos::DefaultHostExecutionSpace::name() == std::string("OpenMP")) {
-    EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=3"), "3 0");
+    EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=3"), "3 0 0 3");
+  }
+}
+
+// Notes the mode during the run; throws at its end if it is to.
+struct ModeSink final : OutputSink {
+  bool fails = false;
+  int flushed = 0;
+  void progress(const Progress& p) override {
+    if (threads_with_denormals() == 0) ++flushed;
+    if (fails && p.t == p.t_end) throw Interrupted("as asked for");
+  }
+};
+
+TEST(Denormals, ARunLeavesTheModeOfEveryThreadAsItWas) {
+  if (const std::string path = test::report_path(); !path.empty()) {
+    Scene scene;
+    scene.grid = {21, 21, 0.6};
+    scene.time.t_end = 1;
+    scene.initial.preconditions = {{.duration = 1, .contraction = false, .excitation = {}, .tension = {}}};
+    scene.mechanics.emplace();
+    std::ofstream report(path);
+    for (const bool fails : {false, true}) {
+      ModeSink sink;
+      sink.fails = fails;
+      RunSummary summary;
+      const auto mode = denormal_mode();
+      const bool threw = [&] {
+        try {
+          run(scene, make_initial_state(scene), sink, summary);
+          return false;
+        } catch (const Interrupted&) {
+          return true;
+        }
+      }();
+      const bool same = denormal_mode() == mode;
+      report << (threw == fails) << (sink.flushed > 0) << same << threads_with_denormals() << ' ';
+    }
+    return;
+  }
+  EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=1"), "1111 1111 ");
+  if (Kokkos::DefaultHostExecutionSpace::name() == std::string("OpenMP")) {
+    EXPECT_EQ(test::report_of_own_process("OMP_NUM_THREADS=3"), "1113 1113 ");
   }
 }
 
