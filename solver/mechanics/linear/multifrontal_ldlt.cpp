@@ -24,8 +24,14 @@ MultifrontalLdlt::MultifrontalLdlt(std::span<const int> row_begin, std::span<con
       permutation_(supernodes.permutation),
       value_(column.size()),
       permuted_(n_) {
-  const int count = static_cast<int>(supernodes.first_column.size()) - 1;
   std::vector<int> front_of(n_);
+  make_fronts(supernodes, front_of);
+  link_fronts(front_of);
+  place_values(row_begin, column, front_of);
+}
+
+void MultifrontalLdlt::make_fronts(const Supernodes& supernodes, std::span<int> front_of) {
+  const int count = static_cast<int>(supernodes.first_column.size()) - 1;
   std::size_t L_tiles = 0;
   int diagonal_tiles = 0, largest = 0;
   for (int s = 0; s < count; ++s) {
@@ -52,18 +58,20 @@ MultifrontalLdlt::MultifrontalLdlt(std::span<const int> row_begin, std::span<con
   inverse_D_.resize(diagonal_tiles);
   scaled_row_.resize(largest);
   x_.resize(largest);
+}
 
-  // Place of a permuted row in a front.
-  const auto place_of = [&](const Front& front, int r) {
-    if (r < front.first_column + front.columns) return r - front.first_column;
-    const auto begin = row_.begin() + front.row_begin;
-    return front.column_tiles * width +
-           static_cast<int>(std::lower_bound(begin, begin + front.rows, r) - begin);
-  };
+int MultifrontalLdlt::place_of(const Front& front, int r) const {
+  if (r < front.first_column + front.columns) return r - front.first_column;
+  const auto begin = row_.begin() + front.row_begin;
+  return front.column_tiles * width +
+         static_cast<int>(std::lower_bound(begin, begin + front.rows, r) - begin);
+}
+
+void MultifrontalLdlt::link_fronts(std::span<const int> front_of) {
   parent_offset_.resize(row_.size());
   std::size_t depth = 0, deepest = 0;
-  std::vector<std::size_t> children_depth(count, 0);
-  for (int s = 0; s < count; ++s) {
+  std::vector<std::size_t> children_depth(fronts_.size(), 0);
+  for (std::size_t s = 0; s < fronts_.size(); ++s) {
     Front& front = fronts_[s];
     front.parent = front.rows > 0 ? front_of[row_[front.row_begin]] : -1;
     for (int k = front.row_begin; k < front.row_begin + front.rows; ++k)
@@ -73,14 +81,17 @@ MultifrontalLdlt::MultifrontalLdlt(std::span<const int> row_begin, std::span<con
     if (front.parent >= 0) children_depth[front.parent] += front.update_tiles();
   }
   updates_.resize(deepest);
+}
 
+void MultifrontalLdlt::place_values(std::span<const int> row_begin, std::span<const int> column,
+                                    std::span<const int> front_of) {
   std::vector<int> position(n_);
   for (int c = 0; c < n_; ++c) position[permutation_[c]] = c;
   const auto front_at = [&](int i, int j) { return front_of[std::min(position[i], position[j])]; };
-  std::vector<int> next(count + 1);
+  std::vector<int> next(fronts_.size() + 1);
   for (int i = 0; i < n_; ++i)
     for (int slot = row_begin[i]; slot < row_begin[i + 1]; ++slot) ++next[front_at(i, column[slot]) + 1];
-  for (int s = 0; s < count; ++s) {
+  for (std::size_t s = 0; s < fronts_.size(); ++s) {
     next[s + 1] += next[s];
     fronts_[s].value_begin = next[s];
     fronts_[s].value_end = next[s + 1];

@@ -55,6 +55,16 @@ class MultifrontalLdlt {
   // Column of tiles K of a lower triangle of `tiles`; its first tile is the diagonal one.
   static std::size_t column_begin(int tiles, int K) { return triangle(tiles) - triangle(tiles - K); }
 
+  // The steps of the constructor: the dense storage of each supernode, and of each column its front;
+  void make_fronts(const Supernodes&, std::span<int> front_of);
+  // the parent of each front, and where its rows are there;
+  void link_fronts(std::span<const int> front_of);
+  // where each value of the pattern goes.
+  void place_values(std::span<const int> row_begin, std::span<const int> column,
+                    std::span<const int> front_of);
+  // Place of a permuted row in a front.
+  int place_of(const Front&, int r) const;
+
   bool eliminate(const Front& front, Tile* L, Tile* update);
   void add_to_parent(const Front& child, const Tile* update, const Front& parent, Tile* L,
                      Tile* parent_update);
