@@ -19,7 +19,7 @@ namespace myowave::bench {
 namespace {
 
 constexpr int n = 121;
-constexpr int steps_between_looks = 10;  // 0.2 t.u.
+constexpr int steps_between_samples = 10;  // 0.2 t.u.
 
 struct Extent {
   int members;
@@ -51,8 +51,8 @@ struct Sheets {
     const tissue::IdentityDiffusion<Real, MemorySpace> diffusion(square_grid(n));
     const solver::Model<Real> model = solver::make_model<Real>({}, {});
     const solver::ModelWithoutTension<Real> rigid{model.cell, {}, model.D, model.inverse_C_m};
-    for (int done = 0; done < steps; done += steps_between_looks)
-      tissue::tiled_steps(execution.device, diffusion, rigid, dt, steps_between_looks, state, spare);
+    for (int done = 0; done < steps; done += steps_between_samples)
+      tissue::tiled_steps(execution.device, diffusion, rigid, dt, steps_between_samples, state, spare);
     execution.device.fence("myowave::bench::ensemble");
   }
 };

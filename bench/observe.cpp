@@ -124,7 +124,7 @@ void time_activation(benchmark::State& state, const Suite& suite, int n) {
   const double size = static_cast<double>(n) * n;
   const double seconds = measure(state, batch_of(size), [&] {
     const auto& V = std::fmod(t, 2) == 0 ? later.V : sheet.V;
-    observe::look_at_activation(ExecutionSpace(), V, observe::ActivationLook{t, t + 1, 0, {}}, fields);
+    observe::sample_activation(ExecutionSpace(), V, observe::ActivationInterval{t, t + 1, 0, {}}, fields);
     t += 1;
   });
   report(state, suite, seconds, "nodes_per_s", size, activation_traffic<Real>(),

@@ -1,11 +1,12 @@
-// When each node is activated: V is looked at now and then, and what its crossings tell is kept in a record a
-// node, on the device for the whole run. Crossings are interpolated linearly between two looks:
+// When each node is activated: V is sampled at intervals, and its crossings are collected in a record per
+// node, on the device for the whole run. Crossings are interpolated linearly between two samples:
 //   t(level) = t0 + (t1 - t0) (level - V0) / (V1 - V0)
-// A look is a stream of V and a mark a node; records are touched where a beat begins or ends, which is rare.
+// A sample reads V and a mark of each node; records are accessed only where a beat starts or ends, which is
+// rare.
 //
 //   view      shape                      unit   access
 //   V         (members, rows, columns)   -      read
-//   marks     (members, rows, columns)   -      read and write, of the last look
+//   marks     (members, rows, columns)   -      read and write, of the last sample
 //   records   (members, rows, columns)   t.u.   read and write
 #pragma once
 
@@ -33,12 +34,12 @@ struct ActivationRecord {
   int active = 0;                 // the last action potential has not ended
 };
 
-// A mark is V of the last look, in float32: 6e-8 is all that the interpolation needs. Of a node that is not
-// armed this much is added; V is then far above `rearm`, or falls through both levels in one look.
+// A mark is V of the last sample, in float32: 6e-8 is all that the interpolation needs. Of a node that is not
+// armed this much is added; V is then far above `rearm`, or falls through both levels within one interval.
 inline constexpr float not_armed = 1024.0F;
 
-// Two looks in a row. Without branches up to update(), so that a row is looked at by SIMD lanes.
-struct ActivationLook {
+// Two consecutive samples. Without branches up to update(), so that SIMD lanes process a row.
+struct ActivationInterval {
   double t_before, t;  // t.u.
   double from;         // t.u.: periods and APDs of beats with an earlier activation do not count
   ActivationLevels levels;
@@ -96,7 +97,7 @@ struct ActivationFields {
   Records records;
 };
 
-// The first look, at V of all members: records begin anew.
+// The first sample of V, of all members: starts new records.
 template <class ExecutionSpace, class View>
 void begin_activation(const ExecutionSpace& space, const View& V,
                       const ActivationFields<typename View::memory_space>& fields,
@@ -115,36 +116,38 @@ void begin_activation(const ExecutionSpace& space, const View& V,
       });
 }
 
-// Nodes are looked at in blocks of as many columns as a mask has bits.
+// Nodes are processed in blocks of as many columns as a mask has bits.
 inline constexpr int activation_block = 32;
 
 // Bit j: the record of column j has to be updated.
 template <class Real>
-KOKKOS_INLINE_FUNCTION std::uint32_t nodes_that_tell(const ActivationLook& look, const Real* V,
+KOKKOS_INLINE_FUNCTION std::uint32_t nodes_to_update(const ActivationInterval& interval, const Real* V,
                                                      const float* marks, int columns) {
-  std::uint32_t told = 0;
-#pragma omp simd reduction(| : told)
+  std::uint32_t changed = 0;
+#pragma omp simd reduction(| : changed)
   for (int j = 0; j < columns; ++j) {
     const auto now = static_cast<float>(V[j]);
-    told |= static_cast<std::uint32_t>(look.activates(marks[j], now) | look.ends(marks[j], now)) << j;
+    changed |= static_cast<std::uint32_t>(interval.activates(marks[j], now) | interval.ends(marks[j], now))
+               << j;
   }
-  return told;
+  return changed;
 }
 
-// `look` by value: a mark that is stored could alias the levels, and no SIMD lane would take them.
+// `interval` by value: a mark that is stored could alias the levels, and no SIMD lane would take them.
 template <class Real>
-KOKKOS_INLINE_FUNCTION void refresh_marks(ActivationLook look, const Real* V, float* marks, int columns) {
+KOKKOS_INLINE_FUNCTION void refresh_marks(ActivationInterval interval, const Real* V, float* marks,
+                                          int columns) {
 #pragma omp simd
-  for (int j = 0; j < columns; ++j) marks[j] = look.next_mark(marks[j], static_cast<float>(V[j]));
+  for (int j = 0; j < columns; ++j) marks[j] = interval.next_mark(marks[j], static_cast<float>(V[j]));
 }
 
-// The next look, at V of all members.
+// The next sample of V, of all members.
 template <class ExecutionSpace, class View>
-void look_at_activation(const ExecutionSpace& space, const View& V, const ActivationLook& look,
-                        const ActivationFields<typename View::memory_space>& fields) {
+void sample_activation(const ExecutionSpace& space, const View& V, const ActivationInterval& interval,
+                       const ActivationFields<typename View::memory_space>& fields) {
   const int rows = static_cast<int>(V.extent(1)), columns = static_cast<int>(V.extent(2));
   Kokkos::parallel_for(
-      "myowave::observe::look_at_activation",
+      "myowave::observe::sample_activation",
       Kokkos::RangePolicy<ExecutionSpace>(space, 0, static_cast<int>(V.extent(0)) * rows),
       KOKKOS_LAMBDA(int row) {
         const int m = row / rows, i = row % rows;
@@ -152,11 +155,12 @@ void look_at_activation(const ExecutionSpace& space, const View& V, const Activa
           const int size = columns - first < activation_block ? columns - first : activation_block;
           const auto* const now = &V(m, i, first);
           float* const marks = &fields.marks(m, i, first);
-          for (auto told = nodes_that_tell(look, now, marks, size); told != 0; told &= told - 1) {
-            const int j = Kokkos::countr_zero(told);
-            look.update(marks[j], static_cast<float>(now[j]), fields.records(m, i, first + j));
+          for (auto changed = nodes_to_update(interval, now, marks, size); changed != 0;
+               changed &= changed - 1) {
+            const int j = Kokkos::countr_zero(changed);
+            interval.update(marks[j], static_cast<float>(now[j]), fields.records(m, i, first + j));
           }
-          refresh_marks(look, now, marks, size);
+          refresh_marks(interval, now, marks, size);
         }
       });
 }

@@ -67,7 +67,7 @@ KOKKOS_INLINE_FUNCTION Kokkos::pair<double, double> bilinear_root(const Corners&
   return {Kokkos::clamp(best.first, 0.0, 1.0), Kokkos::clamp(best.second, 0.0, 1.0)};
 }
 
-// Nodes of a row are looked at together, a bit each; they are the corners of so many squares.
+// Nodes of a row are inspected together, a bit each; they are the corners of so many squares.
 inline constexpr int block_columns = 63;
 
 // Bit k: V[k] >= 0.5, for k < nodes <= 64. `largest` becomes at least the largest V of them.
@@ -75,7 +75,7 @@ template <class Real>
 KOKKOS_INLINE_FUNCTION std::uint64_t high_nodes(const Real* V, int nodes, double& largest) {
   std::uint64_t high = 0;
   Real most = V[0];
-  const auto look = [&](int n) {
+  const auto inspect = [&](int n) {
 #pragma omp simd reduction(| : high) reduction(max : most)
     for (int k = 0; k < n; ++k) {
       high |= std::uint64_t(V[k] >= Real(0.5) ? 1 : 0) << k;
@@ -83,9 +83,9 @@ KOKKOS_INLINE_FUNCTION std::uint64_t high_nodes(const Real* V, int nodes, double
     }
   };
   if (nodes == block_columns + 1)
-    look(block_columns + 1);  // most are; a loop of known length
+    inspect(block_columns + 1);  // most are; a loop of known length
   else
-    look(nodes);
+    inspect(nodes);
   largest = Kokkos::max(largest, double(most));
   return high;
 }
@@ -117,7 +117,7 @@ KOKKOS_INLINE_FUNCTION std::uint64_t all_corners(std::uint64_t below, std::uint6
 
 // What find_phase_singularities() does in a tile of squares. The winding of a square is not zero only where V
 // crosses 0.5 along some of its edges and the rate has not one sign at all ends of these: the rate is asked
-// for at such nodes alone, once, and a square that passes is looked at in full.
+// for at such nodes alone, once, and a square that passes is inspected in full.
 template <class View, class Rate, class MemorySpace>
 struct SingularitySearch {
   using Real = typename View::non_const_value_type;
@@ -149,7 +149,7 @@ struct SingularitySearch {
         const std::uint64_t one_sign = all_corners(signs_below.positive, signs.positive) |
                                        all_corners(signs_below.not_positive, signs.not_positive);
         for (std::uint64_t rest = crossed & ~one_sign; rest != 0; rest &= rest - 1)
-          look_at_square(m, i - 1, first + Kokkos::countr_zero(rest));
+          inspect_square(m, i - 1, first + Kokkos::countr_zero(rest));
       }
       high_below = high;
       high = high_above;
@@ -157,7 +157,7 @@ struct SingularitySearch {
     }
   }
 
-  KOKKOS_FUNCTION void look_at_square(int m, int i, int j) const {
+  KOKKOS_FUNCTION void inspect_square(int m, int i, int j) const {
     const Corners u{{V(m, i, j) - 0.5, V(m, i, j + 1) - 0.5, V(m, i + 1, j + 1) - 0.5, V(m, i + 1, j) - 0.5}};
     const Corners v{{double(rate(m, i, j)), double(rate(m, i, j + 1)), double(rate(m, i + 1, j + 1)),
                      double(rate(m, i + 1, j))}};
@@ -183,7 +183,7 @@ template <class ExecutionSpace, class View, class Rate, class MemorySpace>
 double find_phase_singularities(const ExecutionSpace& space, const tissue::Grid& grid, const View& V,
                                 const Rate& rate, const Kokkos::View<int, MemorySpace>& count,
                                 const Kokkos::View<PhaseSingularity*, MemorySpace>& found) {
-  // A thread of a host looks at each row of its tile once, one of a device at a row of squares.
+  // A thread of a host reads each row of its tile once, one of a device at a row of squares.
   const int rows_per_tile = runs_on_host<ExecutionSpace> ? 16 : 1;
   const int tiles_in_column = tissue::tiles_of(grid.rows - 1, rows_per_tile);
   const int tiles_in_row = tissue::tiles_of(grid.columns - 1, block_columns);

@@ -1,5 +1,5 @@
 // One explicit step of the monodomain equations with active tension (Eqs 22a-c) along a row, by one of two
-// schemes. Both look at the neighbours once.
+// schemes. Both read the neighbours once.
 #pragma once
 
 #include "kernels/base/row_loop.hpp"
@@ -81,7 +81,7 @@ struct MonodomainModel {
 };
 
 // The old state of a row and where the new one goes, counted from the same column as the stencil. r_next
-// and Ta_next may be r and Ta. Without tension Ta and Ta_next are not looked at.
+// and Ta_next may be r and Ta. Without tension Ta and Ta_next are not read.
 template <class Model>
 struct NodeUpdate {
   using Real = typename Model::Real;

@@ -4,7 +4,7 @@
 
 namespace myowave::solver {
 
-void BreakupWatch::look(double t, int tips, double largest_V, bool more_stimuli) {
+void BreakupWatch::add_sample(double t, int tips, double largest_V, bool more_stimuli) {
   if (!death_ && largest_V < quiet_below && !more_stimuli) death_ = t;
   if (breakup_ || t < from_) return;
   if (!limit_) limit_ = std::max(1, tips);

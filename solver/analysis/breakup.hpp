@@ -16,7 +16,7 @@ class BreakupWatch {
   explicit BreakupWatch(double from) : from_(from) {}
 
   // In time order. `more_stimuli`: a stimulus is on or to come.
-  void look(double t, int tips, double largest_V, bool more_stimuli);
+  void add_sample(double t, int tips, double largest_V, bool more_stimuli);
 
   std::optional<double> breakup() const { return breakup_; }
   std::optional<double> death() const { return death_; }

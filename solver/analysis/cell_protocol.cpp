@@ -57,11 +57,11 @@ class Pacing {
 
   double cycle_length() const { return static_cast<double>(cycle_) * dt_; }
 
-  // One cycle from now; look() before every step.
-  template <class Look>
-  void cycle(Cell& cell, const Look& look) const {
+  // One cycle from now; before_step() before every step.
+  template <class Action>
+  void cycle(Cell& cell, const Action& before_step) const {
     for (std::int64_t n = 0; n < cycle_; ++n) {
-      look();
+      before_step();
       cell.step(n < pulse_ ? amplitude_ : 0);
     }
   }
@@ -147,7 +147,7 @@ CellCourse pace_cell(const PacedCell& settings, double cycle_length, int pulses,
   Cell cell(settings);
   BeatDetector detector;
   CellCourse course;
-  const auto look = [&] {
+  const auto record = [&] {
     const CellState& state = cell.state();
     if (const auto beat = detector.add(cell.t(), state.V)) course.beats.push_back(*beat);
     if (cell.steps() % sample != 0) return;
@@ -156,8 +156,8 @@ CellCourse pace_cell(const PacedCell& settings, double cycle_length, int pulses,
     course.r.push_back(state.r);
     course.Ta.push_back(state.Ta);
   };
-  for (int n = 0; n < pulses; ++n) pacing.cycle(cell, look);
-  look();
+  for (int n = 0; n < pulses; ++n) pacing.cycle(cell, record);
+  record();
   if (detector.last()) course.beats.push_back(*detector.last());
   return course;
 }
@@ -175,7 +175,7 @@ std::vector<RestitutionPoint> restitution(const RestitutionProtocol& protocol) {
   Cell cell(protocol.cell);
   BeatDetector detector;
   std::vector<Beat> beats;
-  const auto look = [&] {
+  const auto record = [&] {
     if (const auto beat = detector.add(cell.t(), cell.state().V)) beats.push_back(*beat);
   };
   std::vector<Cycles> kept;
@@ -184,11 +184,11 @@ std::vector<RestitutionPoint> restitution(const RestitutionProtocol& protocol) {
       static_cast<int>((protocol.longest - protocol.shortest) / protocol.step + rounding) + 1;
   for (int n = 0; n < lengths; ++n) {
     const Pacing pacing(protocol.cell, protocol.longest - n * protocol.step);
-    for (int pulse = 0; pulse < protocol.pulses - protocol.kept; ++pulse) pacing.cycle(cell, look);
+    for (int pulse = 0; pulse < protocol.pulses - protocol.kept; ++pulse) pacing.cycle(cell, record);
     kept.push_back({pacing.cycle_length(), cell.t(), protocol.kept});
-    for (int pulse = 0; pulse < protocol.kept; ++pulse) pacing.cycle(cell, look);
+    for (int pulse = 0; pulse < protocol.kept; ++pulse) pacing.cycle(cell, record);
   }
-  look();
+  record();
   if (detector.last()) beats.push_back(*detector.last());
 
   std::vector<RestitutionPoint> points;

@@ -151,8 +151,8 @@ std::vector<TipEvent> TipTrajectories::explain(const std::vector<Tip>& tips, dou
   return events;
 }
 
-void TipTrajectories::look(double t, std::span<Tip> tips) {
-  const double reach = gating_distance(scene_, last_look_ ? t - *last_look_ : 0);
+void TipTrajectories::add_sample(double t, std::span<Tip> tips) {
+  const double reach = gating_distance(scene_, last_sample_ ? t - *last_sample_ : 0);
   std::vector<Tip*> sorted;
   for (auto& tip : tips) sorted.push_back(&tip);
   std::ranges::sort(sorted, {}, [](const Tip* tip) { return place(*tip); });
@@ -191,7 +191,7 @@ void TipTrajectories::look(double t, std::span<Tip> tips) {
     live.trajectory.number = next_number_++;
     live.trajectory.charge = born[n]->charge;
     live.trajectory.birth = t;
-    live.trajectory.born = last_look_ ? births[n] : TipEvent::run;
+    live.trajectory.born = last_sample_ ? births[n] : TipEvent::run;
     ++counts_.n;
     ++counts_.born[static_cast<std::size_t>(live.trajectory.born)];
     follow(live, t, *born[n]);
@@ -199,7 +199,7 @@ void TipTrajectories::look(double t, std::span<Tip> tips) {
   }
   std::ranges::sort(next, {}, [](const Live& live) { return place(live.tip); });
   live_ = std::move(next);
-  last_look_ = t;
+  last_sample_ = t;
 }
 
 void TipTrajectories::follow(Live& live, double t, Tip& tip) {

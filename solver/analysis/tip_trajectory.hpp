@@ -73,7 +73,7 @@ class TipTrajectories {
   explicit TipTrajectories(const Scene&);
 
   // Tips at t, in time order; gives them their trajectory.
-  void look(double t, std::span<Tip> tips);
+  void add_sample(double t, std::span<Tip> tips);
   // The run is over: all that are left end here.
   void finish();
 
@@ -86,7 +86,7 @@ class TipTrajectories {
   template <class Archive>
   void state(Archive& archive) {
     std::size_t living = live_.size();
-    archive(living, last_look_, next_number_, ended_, counts_, longest_);
+    archive(living, last_sample_, next_number_, ended_, counts_, longest_);
     if constexpr (Archive::loads) live_.assign(living, new_live());
     for (auto& live : live_) archive(live.trajectory, live.tip, live.rotations);
   }
@@ -105,7 +105,7 @@ class TipTrajectories {
 
   const Scene& scene_;
   std::vector<Live> live_;  // by row and column of the tip
-  std::optional<double> last_look_;
+  std::optional<double> last_sample_;
   int next_number_ = 0;
   std::vector<TipTrajectory> ended_;
   TrajectoryCounts counts_;

@@ -9,7 +9,7 @@ namespace myowave::solver {
 struct ActivationMaps {
   // t.u., from one look at V to the next. A plane wave's upstroke, linear between two looks, is off by 0.007
   // at most.
-  static constexpr double look_every = 0.4;
+  static constexpr double sample_every = 0.4;
 
   int rows = 0, columns = 0;
   double dx = 0;                                     // length units

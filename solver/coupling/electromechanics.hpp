@@ -94,7 +94,7 @@ class Electromechanics {
 
   // What the crossings of V since the last look tell; the first look begins the maps. Where the scene has
   // maps.
-  void look_at_activation(double t);
+  void sample_activation(double t);
   // Without the conduction velocity.
   ActivationMaps activation_maps() const;
 
@@ -116,7 +116,7 @@ class Electromechanics {
  private:
   template <class Archive>
   void state(Archive& archive) {
-    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, area_, activation_look_);
+    archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, area_, activation_sampled_);
     if (scene_.output.maps) archive(activation_.marks, activation_.records);
     if (equilibrium_) archive(gauss_tension_.host, solved_nodes_, nodes_.host, element_areas_);
   }
@@ -169,7 +169,7 @@ class Electromechanics {
   Mirrored<Kokkos::View<int, Space>> tip_count_;
   Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
   observe::ActivationFields<Space> activation_;
-  std::optional<double> activation_look_;                 // t of the last one
+  std::optional<double> activation_sampled_;              // t of the last one
   Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
   std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
 };

@@ -53,7 +53,7 @@ template <class ExecutionSpace, class Real>
 auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   const detail::Timer timer(phases_->observe);
   upload_stimuli(schedule_.active(t));
-  const auto look = [&] {
+  const auto find = [&] {
     Kokkos::deep_copy(space_, tip_count_.device, 0);
     const double largest_V = std::visit(
         [&](const auto& form) {
@@ -69,12 +69,12 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
     return largest_V;
   };
   Activity activity;
-  activity.largest_V = look();
+  activity.largest_V = find();
   const auto found = static_cast<std::size_t>(tip_count_.host());
-  if (found > tip_list_.device.extent(0)) {  // look again, with room for them
+  if (found > tip_list_.device.extent(0)) {  // again, with room for them
     tip_list_ =
         Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>>("myowave::solver::tip_list", 2 * found);
-    look();
+    find();
   }
   const auto list = detail::first_rows(tip_list_.host, found);
   Kokkos::deep_copy(space_, list, detail::first_rows(tip_list_.device, found));
@@ -88,17 +88,17 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
 }
 
 template <class ExecutionSpace, class Real>
-void Electromechanics<ExecutionSpace, Real>::look_at_activation(double t) {
+void Electromechanics<ExecutionSpace, Real>::sample_activation(double t) {
   const detail::Timer timer(phases_->observe);
-  if (activation_look_)
-    observe::look_at_activation(
+  if (activation_sampled_)
+    observe::sample_activation(
         space_, state_.V,
-        observe::ActivationLook{*activation_look_, t, scene_.output.period_from, detail::beat_levels},
+        observe::ActivationInterval{*activation_sampled_, t, scene_.output.period_from, detail::beat_levels},
         activation_);
   else
     observe::begin_activation(space_, state_.V, activation_, detail::beat_levels);
-  space_.fence("myowave::solver::look_at_activation");
-  activation_look_ = t;
+  space_.fence("myowave::solver::sample_activation");
+  activation_sampled_ = t;
 }
 
 template <class ExecutionSpace, class Real>

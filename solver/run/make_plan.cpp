@@ -221,7 +221,7 @@ PlannedPart maps(const Scene& scene, const Sizes& sizes) {
   return {.part = "maps",
           .active = true,
           .what = fmt::format("activation, period and APD of each node, V looked at every {} t.u.",
-                              ActivationMaps::look_every),
+                              ActivationMaps::sample_every),
           .why = "output.maps = true",
           .device_bytes = sizes.nodes * (sizeof(float) + sizeof(observe::ActivationRecord)),
           // A copy, six numbers and a count of each node, when the run ends.

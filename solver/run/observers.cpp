@@ -15,7 +15,7 @@ Observers::Observers(const Scene& scene)
       trajectories_(scene) {}
 
 void Observers::link(double t, std::span<Tip> tips) {
-  if (t >= settled_) trajectories_.look(t, tips);
+  if (t >= settled_) trajectories_.add_sample(t, tips);
 }
 
 bool Observers::wants_end() const {

@@ -26,7 +26,7 @@ class Observers {
 
   void add_tips(std::size_t count) { tip_counts_.push_back(static_cast<double>(count)); }
   void watch(double t, int count, double largest_V, bool more_stimuli) {
-    breakup_.look(t, count, largest_V, more_stimuli);
+    breakup_.add_sample(t, count, largest_V, more_stimuli);
   }
   // What the scene wants to end on has come.
   bool wants_end() const;

@@ -22,7 +22,7 @@ Schedule::Schedule(const Scene& scene)
       tips(every(scene.output.tips_every, scene)),
       probes(every(scene.output.probes_every, scene)),
       watch(every(scene.output.watch_every, scene)),
-      maps(scene.output.maps ? every(ActivationMaps::look_every, scene) : watch),
+      maps(scene.output.maps ? every(ActivationMaps::sample_every, scene) : watch),
       mechanics(scene.mechanics ? scene.mechanics->interval : 0),
       check(scene.mechanics ? scene.mechanics->interval : check_without_mechanics),
       // A decimal number of t.u. is only close to the step that is meant.

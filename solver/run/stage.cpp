@@ -88,8 +88,8 @@ class Stage {
       sheet.solve_mechanics(t());
       observers_.add_area(sheet.area());
     }
-    look_at_tension(sheet);
-    look_at_ellipticity();
+    check_tension(sheet);
+    check_ellipticity();
     if (observed()) sample(sheet);
     report_progress();
   }
@@ -170,7 +170,7 @@ class Stage {
                       *problem, what_to_do));
   }
 
-  void look_at_tension(const Sheet& sheet) {
+  void check_tension(const Sheet& sheet) {
     if (warned_of_tension_ || !sheet.deforms()) return;
     const double largest = sheet.largest_tension();
     if (largest <= elliptic_tension) return;
@@ -181,7 +181,7 @@ class Stage {
                      t(), largest, elliptic_tension));
   }
 
-  void look_at_ellipticity() {
+  void check_ellipticity() {
     if (warned_of_ellipticity_ || summary_.mechanics.not_elliptic == 0) return;
     warned_of_ellipticity_ = true;
     warn(sink_, whole_,
@@ -192,13 +192,13 @@ class Stage {
   }
 
   void sample(Sheet& sheet) {
-    look_at_tips(sheet);
+    sample_tips(sheet);
     if (schedule_.due(step_, schedule_.probes) && !scene_.output.probes.empty()) {
       std::vector<double> values;
       observe([&] { values = sheet.probe_values(); });
       output([&] { sink_.probes(t(), values); });
     }
-    if (scene_.output.maps && schedule_.due(step_, schedule_.maps)) sheet.look_at_activation(t());
+    if (scene_.output.maps && schedule_.due(step_, schedule_.maps)) sheet.sample_activation(t());
     if (!schedule_.fields_due(step_)) return;
     output([&] {
       if (sheet.deforms()) {
@@ -214,7 +214,7 @@ class Stage {
     for (const auto& beat : observers_.take_beats()) output([&] { sink_.beat(beat); });
   }
 
-  void look_at_tips(Sheet& sheet) {
+  void sample_tips(Sheet& sheet) {
     const bool watched = step_ % schedule_.watch == 0;
     if (!watched && !schedule_.due(step_, schedule_.tips)) return;
     auto activity = sheet.find_tips(t());

@@ -17,9 +17,9 @@ namespace {
 
 using Space = Kokkos::DefaultExecutionSpace;
 
-constexpr double seed = 1e-6;     // of V
-constexpr double first_look = 5;  // t.u.
-constexpr double beyond = 10;     // |V|; sqrt(2 / (k dt)) and more has left every attractor
+constexpr double seed = 1e-6;       // of V
+constexpr double first_sample = 5;  // t.u.
+constexpr double beyond = 10;       // |V|; sqrt(2 / (k dt)) and more has left every attractor
 
 // No solution of the equations passes V = 1 from below. At half the bound no front has more grid-scale noise
 // than 0.03 (the broken front on a sheet sheared by 1.5); past the bound it soon is 0.1 and more.
@@ -58,14 +58,14 @@ class Trial {
     spare_ = {field("V_next", nullptr), field("r_next", nullptr), {}};
     const CleanRange range = clean_range(like_, initial).with_margin(like_);
     StepReport report;
-    const int per_look = std::max(1, static_cast<int>(std::lround(1 / dt)));
-    const int looks = static_cast<int>(std::ceil(duration / (per_look * dt)));
-    for (int look = 1; look <= looks && !report.blown_up; ++look) {
-      advance(dt, per_look);
+    const int steps_per_sample = std::max(1, static_cast<int>(std::lround(1 / dt)));
+    const int samples = static_cast<int>(std::ceil(duration / (steps_per_sample * dt)));
+    for (int sample = 1; sample <= samples && !report.blown_up; ++sample) {
+      advance(dt, steps_per_sample);
       const auto seen = observe::inspect_state(space_, state_.V, state_.r, state_.Ta);
       report.told = report.told || is_invalid(range, dt);
       report.blown_up = seen.first_non_finite >= 0 || std::max(-seen.min_V, seen.max_V) > beyond;
-      if (look * per_look * dt < first_look || report.blown_up) continue;
+      if (sample * steps_per_sample * dt < first_sample || report.blown_up) continue;
       report.noise = std::max(report.noise, seen.noise);
       report.min_V = std::min(report.min_V, seen.min_V);
       report.max_V = std::max(report.max_V, seen.max_V);

@@ -214,17 +214,17 @@ TYPED_TEST(DataMovement, WithoutFeedbackNoNodesGoUp) {
   EXPECT_THAT(sheet.solve().movements, ElementsAre(tension_down));
 }
 
-TYPED_TEST(DataMovement, ALookMovesTheTipsAloneAndAStimulusOnce) {
+TYPED_TEST(DataMovement, ASampleMovesTheTipsAloneAndAStimulusOnce) {
   Sheet<TypeParam> sheet(contracting_front(solver::MetricForm::conservative));
   sheet.solve();
-  const auto moved = [](const Recording& look, const std::string& label) {
-    return std::ranges::count(look.movements, "myowave::solver::" + label, &Movement::label);
+  const auto moved = [](const Recording& sample, const std::string& label) {
+    return std::ranges::count(sample.movements, "myowave::solver::" + label, &Movement::label);
   };
-  for (int look = 0; look < 8; ++look) {  // the stimulus ends with the fifth of 10 steps
+  for (int sample = 0; sample < 8; ++sample) {  // the stimulus ends with the fifth of 10 steps
     const Recording found = sheet.find_tips();
     EXPECT_EQ(moved(found, "tip_count"), 1);
     EXPECT_LE(found.movements.size(), 2U) << "the count and the tips";
-    const bool starts = look == 0;
+    const bool starts = sample == 0;
     EXPECT_EQ(std::ranges::count(found.kernels, "myowave::observe::find_phase_singularities"), 1);
     EXPECT_THAT(found.allocations, IsEmpty());
     EXPECT_EQ(found.copies, (starts ? 1 : 0) + 1 + 1 + 1) << "stimuli; count to zero; count; tips";

@@ -22,7 +22,7 @@ class Maps {
  public:
   Maps(int rows, int columns, double from) : rows_(rows), columns_(columns), from_(from) {}
 
-  void look(double t, const std::vector<Values>& members) {
+  void add_sample(double t, const std::vector<Values>& members) {
     const auto V = test::to_view<Real>(rows_, columns_, members);
     if (fields_.marks.size() == 0) {
       const std::size_t m = members.size(), n = rows_, k = columns_;
@@ -30,7 +30,7 @@ class Maps {
                  Fields::Records("myowave::test::records", m, n, k)};
       begin_activation(ExecutionSpace(), V, fields_);
     } else {
-      look_at_activation(ExecutionSpace(), V, ActivationLook{t_, t, from_, {}}, fields_);
+      sample_activation(ExecutionSpace(), V, ActivationInterval{t_, t, from_, {}}, fields_);
     }
     ExecutionSpace().fence();
     t_ = t;
@@ -51,7 +51,7 @@ class Maps {
 ActivationRecord record_of(std::initializer_list<double> V, double from = 0) {
   Maps<double> maps(1, 1, from);
   double t = 0;
-  for (const double v : V) maps.look(t++, {{v}});
+  for (const double v : V) maps.add_sample(t++, {{v}});
   return maps.records().front();
 }
 
@@ -104,7 +104,7 @@ void expect_as_a_plain_detector(int rows, int columns) {
           members[m].push_back(V);
           recorders[(m * rows + i) * columns + j].add(n * every, std::array{V});
         }
-    maps.look(n * every, members);
+    maps.add_sample(n * every, members);
   }
   const auto records = maps.records();
   ASSERT_EQ(records.size(), recorders.size());

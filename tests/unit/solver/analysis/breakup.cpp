@@ -7,15 +7,15 @@
 namespace myowave::solver {
 namespace {
 
-constexpr double look_every = 0.2;  // t.u.
+constexpr double sample_every = 0.2;  // t.u.
 
 // Samples every 0.2 t.u. until t_end, with tips(t) and V(t).
 void watch(
     BreakupWatch& w, double t_end, const std::function<int(double)>& tips,
     const std::function<double(double)>& largest_V = [](double) { return 1.0; }, bool more_stimuli = false) {
-  for (int n = 0; n * look_every <= t_end; ++n) {
-    const double t = n * look_every;
-    w.look(t, tips(t + 1e-9), largest_V(t + 1e-9), more_stimuli);
+  for (int n = 0; n * sample_every <= t_end; ++n) {
+    const double t = n * sample_every;
+    w.add_sample(t, tips(t + 1e-9), largest_V(t + 1e-9), more_stimuli);
   }
 }
 

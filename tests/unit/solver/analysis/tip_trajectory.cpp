@@ -17,7 +17,7 @@
 namespace myowave::solver {
 namespace {
 
-constexpr double look_every = 0.2;  // t.u.
+constexpr double sample_every = 0.2;  // t.u.
 constexpr double two_pi = 2 * std::numbers::pi;
 
 // 101 x 101 nodes, 60 x 60 length units.
@@ -33,9 +33,9 @@ using TipsAt = std::function<std::vector<Tip>(double)>;
 std::vector<TipTrajectory> follow(double t_end, const TipsAt& tips) {
   const Scene scene = sheet();
   TipTrajectories trajectories(scene);
-  for (int n = 0; n * look_every <= t_end + 1e-9; ++n) {
-    auto now = tips(n * look_every);
-    trajectories.look(n * look_every, now);
+  for (int n = 0; n * sample_every <= t_end + 1e-9; ++n) {
+    auto now = tips(n * sample_every);
+    trajectories.add_sample(n * sample_every, now);
     for (const auto& tip : now) EXPECT_GE(tip.trajectory, 0);
   }
   trajectories.finish();
@@ -61,7 +61,7 @@ TEST(TipTrajectory, OfACircleHasItsCenterAndRadius) {
     EXPECT_EQ(one.number, 0);
     EXPECT_EQ(one.charge, charge);
     EXPECT_EQ(one.birth, 0);
-    EXPECT_NEAR(one.death, 10.5 * period, look_every);
+    EXPECT_NEAR(one.death, 10.5 * period, sample_every);
     EXPECT_EQ(one.born, TipEvent::run);
     EXPECT_EQ(one.ended, TipEvent::run);
     EXPECT_FALSE(one.boundary);
@@ -280,7 +280,7 @@ TEST(TipTrajectory, OfABrokenFrontThatCurls) {
   scene.time.t_end = 100;
   scene.initial.type = InitialSettings::Type::broken_front;
   scene.initial.offset = {0, 25};
-  scene.output.tips_every = look_every;
+  scene.output.tips_every = sample_every;
   const auto run = test::recorded_run(scene);
   const auto& found = run.sink.trajectories;
   EXPECT_EQ(found.size(), static_cast<std::size_t>(run.summary.observables.trajectories.n));
