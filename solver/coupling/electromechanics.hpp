@@ -14,7 +14,7 @@
 #include "solver/base/area_sample.hpp"
 #include "solver/base/execution.hpp"
 #include "solver/base/run_output.hpp"
-#include "solver/coupling/extrapolation.hpp"
+#include "solver/coupling/node_history.hpp"
 #include "solver/coupling/select_form.hpp"
 #include "solver/excitation/select_model.hpp"
 #include "solver/excitation/stability.hpp"
@@ -118,7 +118,7 @@ class Electromechanics {
   void state(Archive& archive) {
     archive(state_.V, state_.r, state_.Ta, clean_, stable_dt_, area_, activation_sampled_);
     if (scene_.output.maps) archive(activation_.marks, activation_.records);
-    if (equilibrium_) archive(gauss_tension_.host, solved_nodes_, nodes_.host, element_areas_);
+    if (equilibrium_) archive(gauss_tension_.host, node_history_, nodes_.host, element_areas_);
   }
   void allocate_fields(const InitialState&);
   void place_probes();
@@ -154,7 +154,7 @@ class Electromechanics {
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;
   Mirrored<GaussTension<Space>> gauss_tension_;
-  SolvedNodes solved_nodes_;
+  NodeHistory node_history_;
   Mirrored<Nodes<Space>> nodes_;  // those that conduction feels
   Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;

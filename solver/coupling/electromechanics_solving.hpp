@@ -20,7 +20,7 @@ template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::solve_rest_state() {
   const auto elements = detail::make_elements(scene_);
   gauss_tension_ = Mirrored<GaussTension<Space>>("myowave::solver::gauss_tension", elements.elements());
-  solved_nodes_ = SolvedNodes(elements, solves_of_metric(scene_));
+  node_history_ = NodeHistory(elements, solves_of_metric(scene_));
   nodes_ = Mirrored<Nodes<Space>>("myowave::solver::nodes", elements.nodes());
   element_areas_ =
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
@@ -48,7 +48,7 @@ void Electromechanics<ExecutionSpace, Real>::solve_mechanics(double t) {
       ++statistics_->left_out;
     else
       add_to_statistics(equilibrium_->solve(host_, gauss_tension_.host, t));
-    moved = solved_nodes_.add(t, equilibrium_->nodes());
+    moved = node_history_.add(t, equilibrium_->nodes());
   }
   if (place_nodes(t)) refresh_metric(t);
   if (moved) measure_area();
@@ -81,7 +81,7 @@ template <class ExecutionSpace, class Real>
 bool Electromechanics<ExecutionSpace, Real>::place_nodes(double t) {
   const detail::Timer timer(phases_->transfer);
   const double middle = t + 0.5 * scene_.mechanics->interval * scene_.time.dt;
-  const auto& placed = solved_nodes_.at(middle);
+  const auto& placed = node_history_.at(middle);
   if (std::equal(placed.data(), placed.data() + placed.size(), nodes_.host.data())) return false;
   Kokkos::deep_copy(host_, nodes_.host, placed);
   host_.fence("myowave::solver::place_nodes");
@@ -114,7 +114,7 @@ void Electromechanics<ExecutionSpace, Real>::refresh_metric(double t) {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::measure_area() {
   const detail::Timer timer(phases_->observe);
-  observe::element_areas(host_, equilibrium_->grid(), solved_nodes_.last(), element_areas_);
+  observe::element_areas(host_, equilibrium_->grid(), node_history_.last(), element_areas_);
   host_.fence("myowave::solver::measure_area");
   const std::span<const double> areas(element_areas_.data(), element_areas_.size());
   area_ = {0, 0, areas[0] / rest_areas_[0], areas[0] / rest_areas_[0], 0};
@@ -143,7 +143,7 @@ double Electromechanics<ExecutionSpace, Real>::largest_tension() const {
 
 template <class ExecutionSpace, class Real>
 std::vector<double> Electromechanics<ExecutionSpace, Real>::download_nodes() const {
-  const auto& nodes = solved_nodes_.last();
+  const auto& nodes = node_history_.last();
   return {nodes.data(), nodes.data() + nodes.size()};
 }
 

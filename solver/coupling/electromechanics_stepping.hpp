@@ -213,7 +213,7 @@ void Electromechanics<ExecutionSpace, Real>::load(StateReader& reader, double t)
   state(reader);
   if (!equilibrium_) return;
   equilibrium_->load(host_, reader);
-  if (!solved_nodes_.empty()) refresh_metric(t);
+  if (!node_history_.empty()) refresh_metric(t);
 }
 
 }  // namespace myowave::solver

@@ -8,7 +8,7 @@
 
 #include "kernels/transfer/tension_to_gauss.hpp"
 #include "solver/base/denormals.hpp"
-#include "solver/coupling/extrapolation.hpp"
+#include "solver/coupling/node_history.hpp"
 #include "solver/coupling/select_form.hpp"
 #include "solver/excitation/select_model.hpp"
 #include "solver/mechanics/equilibrium.hpp"
@@ -49,7 +49,7 @@ struct PlainSheet {
     const auto tension_host = Kokkos::create_mirror_view(tension);
     const Nodes<MemorySpace> felt("nodes felt", elements.nodes());
     const Nodes<Kokkos::HostSpace> now("nodes", elements.nodes());
-    solver::SolvedNodes solved(elements, solver::solves_of_metric(scene));
+    solver::NodeHistory solved(elements, solver::solves_of_metric(scene));
     equilibrium.solve(host, tension_host, 0);  // the loaded rest state
 
     const auto steps = std::llround(scene.time.t_end / scene.time.dt);

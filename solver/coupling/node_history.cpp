@@ -1,4 +1,4 @@
-#include "solver/coupling/extrapolation.hpp"
+#include "solver/coupling/node_history.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 namespace myowave::solver {
 namespace {
 
-bool turns_a_corner(const elastic::ElementGrid& grid, const SolvedNodes::HostNodes& nodes) {
+bool turns_a_corner(const elastic::ElementGrid& grid, const NodeHistory::HostNodes& nodes) {
   for (int e = 0; e < grid.elements(); ++e)
     if (!(elastic::min_corner_J(elastic::element_nodes(grid, nodes, e), grid.h) > 0)) return true;
   return false;
@@ -16,13 +16,13 @@ bool turns_a_corner(const elastic::ElementGrid& grid, const SolvedNodes::HostNod
 
 }  // namespace
 
-SolvedNodes::SolvedNodes(const elastic::ElementGrid& grid, std::size_t solves) : grid_(grid), kept_(solves) {
+NodeHistory::NodeHistory(const elastic::ElementGrid& grid, std::size_t solves) : grid_(grid), kept_(solves) {
   for (std::size_t n = 0; n < kept_; ++n)
-    solves_[n].nodes = HostNodes("myowave::solver::solved_nodes", grid.nodes());
+    solves_[n].nodes = HostNodes("myowave::solver::node_history", grid.nodes());
   if (kept_ > 1) placed_ = HostNodes("myowave::solver::extrapolated_nodes", grid.nodes());
 }
 
-bool SolvedNodes::add(double t, const HostNodes& nodes) {
+bool NodeHistory::add(double t, const HostNodes& nodes) {
   const std::span<const double> added(nodes.data(), nodes.size());
   const bool moved = empty() || !std::ranges::equal(added, std::span(last().data(), last().size()));
   std::rotate(solves_.begin(), solves_.begin() + kept_ - 1, solves_.begin() + kept_);
@@ -32,7 +32,7 @@ bool SolvedNodes::add(double t, const HostNodes& nodes) {
   return moved;
 }
 
-const SolvedNodes::HostNodes& SolvedNodes::at(double t) {
+const NodeHistory::HostNodes& NodeHistory::at(double t) {
   for (std::size_t solves = known_; solves > 1; --solves) {
     place(t, solves);
     if (!turns_a_corner(grid_, placed_)) return placed_;
@@ -41,7 +41,7 @@ const SolvedNodes::HostNodes& SolvedNodes::at(double t) {
 }
 
 // As the last nodes and what the others differ from them by: what has not moved stays where it is to the bit.
-void SolvedNodes::place(double t, std::size_t solves) {
+void NodeHistory::place(double t, std::size_t solves) {
   std::array<double, most_solves> times{};
   std::ranges::transform(solves_, times.begin(), &Solve::t);
   const auto weights = lagrange_weights(std::span(times).first(solves), t);

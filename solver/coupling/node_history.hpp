@@ -11,14 +11,14 @@
 
 namespace myowave::solver {
 
-class SolvedNodes {
+class NodeHistory {
  public:
   using HostNodes = Nodes<Kokkos::HostSpace>;  // length units
   static constexpr std::size_t most_solves = 3;
 
-  SolvedNodes() = default;
+  NodeHistory() = default;
   // Keeps the last `solves`, 1 to most_solves.
-  SolvedNodes(const elastic::ElementGrid&, std::size_t solves);
+  NodeHistory(const elastic::ElementGrid&, std::size_t solves);
 
   bool empty() const { return known_ == 0; }
 

@@ -1,6 +1,6 @@
 // Nodes between two solves: weights against the known ones and polynomials, and what is never turned inside
 // out.
-#include "solver/coupling/extrapolation.hpp"
+#include "solver/coupling/node_history.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 using ::testing::DoubleEq;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-using HostNodes = SolvedNodes::HostNodes;
+using HostNodes = NodeHistory::HostNodes;
 
 TEST(LagrangeWeights, OfEqualSpacings) {
   const std::array times{0.0, -1.0, -2.0};
@@ -58,16 +58,16 @@ HostNodes kite(double q) {
 }
 
 // At successive whole times, the last at t = 0.
-SolvedNodes solved(const std::vector<double>& q, std::size_t kept = SolvedNodes::most_solves) {
-  SolvedNodes nodes(one_element, kept);
+NodeHistory solved(const std::vector<double>& q, std::size_t kept = NodeHistory::most_solves) {
+  NodeHistory nodes(one_element, kept);
   for (std::size_t n = 0; n < q.size(); ++n)
     nodes.add(static_cast<double>(n) - static_cast<double>(q.size() - 1), kite(q[n]));
   return nodes;
 }
 
-double corner_at(SolvedNodes nodes, double t) { return nodes.at(t)(3, 0); }
+double corner_at(NodeHistory nodes, double t) { return nodes.at(t)(3, 0); }
 
-TEST(SolvedNodes, FollowAsManySolvesAsAreKnownAndKept) {
+TEST(NodeHistory, FollowAsManySolvesAsAreKnownAndKept) {
   const auto parabola = [](double t) { return 1 + t * (0.125 + 0.0625 * t); };
   const std::vector<double> q{parabola(-3), parabola(-2), parabola(-1), parabola(0)};
   EXPECT_THAT(corner_at(solved(q), 0.5), DoubleEq(parabola(0.5)));
@@ -78,20 +78,20 @@ TEST(SolvedNodes, FollowAsManySolvesAsAreKnownAndKept) {
   EXPECT_EQ(solved(q).last()(3, 1), q[3]);
 }
 
-TEST(SolvedNodes, ThatDoNotMoveAreBitwiseUnchanged) {
+TEST(NodeHistory, ThatDoNotMoveAreBitwiseUnchanged) {
   EXPECT_EQ(corner_at(solved({1 / 3.0, 1.1, 1.1, 1.1}), 0.3), 1.1);
 }
 
 // Of the parabola, the line and the last nodes the first that turns no corner.
-TEST(SolvedNodes, TurnNoCorner) {
+TEST(NodeHistory, TurnNoCorner) {
   EXPECT_THAT(corner_at(solved({1.2, 1, 0.9}), 0.5), DoubleEq(1.875 * 0.9 - 1.25 + 0.375 * 1.2));
   EXPECT_THAT(corner_at(solved({0.6, 1.2, 0.9}), 0.5), DoubleEq(1.5 * 0.9 - 0.5 * 1.2)) << "parabola: 0.41";
   EXPECT_EQ(corner_at(solved({1.3, 1.2, 0.7}), 0.5), 0.7) << "parabola: 0.3, line: 0.45";
   EXPECT_EQ(corner_at(solved({1.2, 0.7}), 0.5), 0.7) << "line: 0.45";
 }
 
-TEST(SolvedNodes, ReportWhetherOneHasMoved) {
-  SolvedNodes nodes(one_element, 2);
+TEST(NodeHistory, ReportWhetherOneHasMoved) {
+  NodeHistory nodes(one_element, 2);
   EXPECT_TRUE(nodes.empty());
   EXPECT_TRUE(nodes.add(0, kite(1)));
   EXPECT_FALSE(nodes.empty());
