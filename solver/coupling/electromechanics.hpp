@@ -29,13 +29,13 @@ inline constexpr std::size_t first_tips = 256;
 // A View and its copy on the host, allocated together, so that a look at it allocates nothing. The
 // same memory where the host reaches the View.
 template <class View>
-struct Mirrored {
+struct DeviceAndHost {
   View device;
   typename View::host_mirror_type host;
 
-  Mirrored() = default;
+  DeviceAndHost() = default;
   template <class... Extents>
-  explicit Mirrored(const std::string& label, Extents... extents)
+  explicit DeviceAndHost(const std::string& label, Extents... extents)
       : device(label, extents...), host(Kokkos::create_mirror_view(device)) {}
 };
 
@@ -153,9 +153,9 @@ class Electromechanics {
 
   // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
   std::optional<Equilibrium<Host>> equilibrium_;
-  Mirrored<GaussTension<Space>> gauss_tension_;
+  DeviceAndHost<GaussTension<Space>> gauss_tension_;
   NodeHistory node_history_;
-  Mirrored<Nodes<Space>> nodes_;  // those that conduction feels
+  DeviceAndHost<Nodes<Space>> nodes_;  // those that conduction feels
   Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
   AreaSample area_;
@@ -164,10 +164,10 @@ class Electromechanics {
   std::vector<double> probe_history_;
   Kokkos::View<std::int64_t*, Space> probe_nodes_;  // linear index of each probe
   std::uint64_t probe_rows_ = 0;                    // see observe::ProbeRecorder
-  Mirrored<Record> probe_record_;                   // (step, probe)
-  Mirrored<Record> probe_values_;                   // (V, r, Ta; probe)
-  Mirrored<Kokkos::View<int, Space>> tip_count_;
-  Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
+  DeviceAndHost<Record> probe_record_;              // (step, probe)
+  DeviceAndHost<Record> probe_values_;              // (V, r, Ta; probe)
+  DeviceAndHost<Kokkos::View<int, Space>> tip_count_;
+  DeviceAndHost<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
   observe::ActivationFields<Space> activation_;
   std::optional<double> activation_sampled_;              // t of the last one
   Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all

@@ -10,7 +10,7 @@
 
 #include "kernels/observe/probes.hpp"
 #include "solver/base/beat.hpp"
-#include "solver/base/mirror.hpp"
+#include "solver/base/host_copy.hpp"
 #include "solver/coupling/electromechanics_common.hpp"
 #include "solver/excitation/state_check.hpp"
 
@@ -72,8 +72,8 @@ auto Electromechanics<ExecutionSpace, Real>::find_tips(double t) -> Activity {
   activity.largest_V = find();
   const auto found = static_cast<std::size_t>(tip_count_.host());
   if (found > tip_list_.device.extent(0)) {  // again, with room for them
-    tip_list_ =
-        Mirrored<Kokkos::View<observe::PhaseSingularity*, Space>>("myowave::solver::tip_list", 2 * found);
+    tip_list_ = DeviceAndHost<Kokkos::View<observe::PhaseSingularity*, Space>>("myowave::solver::tip_list",
+                                                                               2 * found);
     find();
   }
   const auto list = detail::first_rows(tip_list_.host, found);
@@ -104,7 +104,7 @@ void Electromechanics<ExecutionSpace, Real>::sample_activation(double t) {
 template <class ExecutionSpace, class Real>
 ActivationMaps Electromechanics<ExecutionSpace, Real>::activation_maps() const {
   const detail::Timer timer(phases_->observe);
-  const auto records = mirror_of(space_, activation_.records);
+  const auto records = host_copy(space_, activation_.records);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   ActivationMaps maps;
   maps.rows = grid_.rows;

@@ -19,9 +19,9 @@ namespace myowave::solver {
 template <class ExecutionSpace, class Real>
 void Electromechanics<ExecutionSpace, Real>::solve_rest_state() {
   const auto elements = detail::make_elements(scene_);
-  gauss_tension_ = Mirrored<GaussTension<Space>>("myowave::solver::gauss_tension", elements.elements());
+  gauss_tension_ = DeviceAndHost<GaussTension<Space>>("myowave::solver::gauss_tension", elements.elements());
   node_history_ = NodeHistory(elements, solves_of_metric(scene_));
-  nodes_ = Mirrored<Nodes<Space>>("myowave::solver::nodes", elements.nodes());
+  nodes_ = DeviceAndHost<Nodes<Space>>("myowave::solver::nodes", elements.nodes());
   element_areas_ =
       Kokkos::View<double*, Kokkos::HostSpace>("myowave::solver::element_areas", elements.elements());
   const detail::Timer timer(phases_->mechanics);

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "kernels/observe/probes.hpp"
-#include "solver/base/mirror.hpp"
+#include "solver/base/host_copy.hpp"
 #include "solver/coupling/electromechanics_common.hpp"
 
 namespace myowave::solver {
@@ -26,7 +26,7 @@ void upload(const ExecutionSpace& space, const View& view, const std::vector<dou
 
 template <class ExecutionSpace, class View>
 std::vector<double> to_host(const ExecutionSpace& space, const View& view) {
-  const auto host = mirror_of(space, view);
+  const auto host = host_copy(space, view);
   return {host.data(), host.data() + host.size()};
 }
 
@@ -120,7 +120,7 @@ void Electromechanics<ExecutionSpace, Real>::advance(std::int64_t first, std::in
   const std::int64_t count = steps * substeps;
   const auto probes = probe_nodes_.extent(0);
   if (probe_record_.device.extent(0) < static_cast<std::size_t>(count))
-    probe_record_ = Mirrored<Record>("myowave::solver::probe_record", count, probes);
+    probe_record_ = DeviceAndHost<Record>("myowave::solver::probe_record", count, probes);
   take_steps(first * substeps, count, scene_.time.dt / substeps);
 
   const detail::Timer timer(phases_->observe);

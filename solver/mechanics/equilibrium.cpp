@@ -8,7 +8,7 @@
 #include "kernels/elastic/ellipticity.hpp"
 #include "solver/base/error.hpp"
 #include "solver/base/execution.hpp"
-#include "solver/base/mirror.hpp"
+#include "solver/base/host_copy.hpp"
 #include "solver/mechanics/equibiaxial.hpp"
 #include "solver/mechanics/equilibrium_failure.hpp"
 #include "solver/mechanics/linear/direct_solver.hpp"
@@ -132,7 +132,7 @@ struct Equilibrium<ExecutionSpace>::Impl {
       Kokkos::deep_copy(space, start, nodes);
       return;
     }
-    const auto Ta_host = mirror_of(space, Ta);
+    const auto Ta_host = host_copy(space, Ta);
     double sum = 0;
     for (int e = 0; e < grid.elements(); ++e) {
       for (int q = 0; q < elastic::gauss_points; ++q) sum += Ta_host(e, q);
@@ -187,7 +187,7 @@ struct Equilibrium<ExecutionSpace>::Impl {
   void turn_upright(const ExecutionSpace& space) {
     if (settings.edges == Edges::fixed) return;
     const int middle = middle_node(grid);
-    const auto pins = mirror_of(space, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
+    const auto pins = host_copy(space, Kokkos::subview(current, std::pair(middle, middle + 2), Kokkos::ALL));
     if (pins(1, 0) >= pins(0, 0)) return;
     elastic::turn_around(space, middle, current);
     start_has_factor = false;
