@@ -37,13 +37,13 @@ double begin_of(double duration, const solver::Scene& scene) {
 struct Enough {};
 
 // Follows one stage of a run, until it has been watched for long enough.
-class Trial final : public solver::OutputSink {
+class StageClock final : public solver::OutputSink {
  public:
-  Trial(solver::RunStage::Kind stage, solver::OutputSink& outputs,
-        double budget_s = std::numeric_limits<double>::infinity())
+  StageClock(solver::RunStage::Kind stage, solver::OutputSink& outputs,
+             double budget_s = std::numeric_limits<double>::infinity())
       : stage_(stage), outputs_(outputs), budget_s_(budget_s), start_(Clock::now()) {}
 
-  // The time from the start of the trial to the end of the stage at t_end.
+  // The time from the start of the clock to the end of the stage at t_end.
   double extrapolated(double t_end) const {
     return last_.t > 0 ? first_s_ + (last_s_ - first_s_) * t_end / last_.t : last_s_;
   }
@@ -97,9 +97,9 @@ double seconds_of_begin(solver::Scene scene, solver::InitialState& state) {
   const double t_end = std::exchange(scene.time.t_end, begin_of(scene.time.t_end, scene));
   solver::OutputSink nowhere;
   solver::RunSummary summary;
-  Trial trial(solver::RunStage::Kind::scene, nowhere);
-  state = solver::run(scene, std::move(state), trial, summary);
-  return trial.extrapolated(t_end);
+  StageClock clock(solver::RunStage::Kind::scene, nowhere);
+  state = solver::run(scene, std::move(state), clock, summary);
+  return clock.extrapolated(t_end);
 }
 
 double seconds_of_precondition(solver::Scene scene, const solver::Precondition& one,
@@ -109,22 +109,22 @@ double seconds_of_precondition(solver::Scene scene, const solver::Precondition& 
   scene.initial.preconditions[0].duration = begin_of(one.duration, scene);
   solver::OutputSink nowhere;
   solver::RunSummary summary;
-  Trial trial(solver::RunStage::Kind::precondition, nowhere);
-  state = solver::run(scene, std::move(state), trial, summary);
-  return trial.extrapolated(one.duration);
+  StageClock clock(solver::RunStage::Kind::precondition, nowhere);
+  state = solver::run(scene, std::move(state), clock, summary);
+  return clock.extrapolated(one.duration);
 }
 
 double seconds_with_outputs(const solver::Scene& scene, solver::InitialState state) {
   const TemporaryFolder temporary;
   RunFolder folder(temporary.path(), scene, true, true);
   solver::RunSummary summary;
-  Trial trial(solver::RunStage::Kind::scene, folder, watched_s);
+  StageClock clock(solver::RunStage::Kind::scene, folder, watched_s);
   try {
-    solver::run(scene, std::move(state), trial, summary);
+    solver::run(scene, std::move(state), clock, summary);
   } catch (const Enough&) {
-    // The trial has what it needs.
+    // The clock has what it needs.
   }
-  return trial.extrapolated(scene.time.t_end);
+  return clock.extrapolated(scene.time.t_end);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ void load_tension(std::span<const double> Ta, int e, double (&out)[elastic::gaus
 
 }  // namespace
 
-bool Newton::Trial::admissible() const { return min_J > 0 && std::isfinite(energy); }
+bool Newton::Evaluation::admissible() const { return min_J > 0 && std::isfinite(energy); }
 
 Newton::Newton(const elastic::ElementGrid& grid, const solver::MechanicsSettings& settings)
     : mesh_(solver::make_mesh(grid, settings.edges)),
@@ -117,7 +117,7 @@ void Newton::solve(std::span<const double> Ta) {
 }
 
 bool Newton::minimise(std::span<const double> Ta) {
-  Trial current = evaluate(Ta, current_);
+  Evaluation current = evaluate(Ta, current_);
   double shift = 0;
   for (int iteration = 0, rejected = 0;; ++iteration) {
     if (!current.admissible()) return false;
@@ -137,7 +137,7 @@ bool Newton::minimise(std::span<const double> Ta) {
   }
 }
 
-bool Newton::step(std::span<const double> Ta, double residual, double shift, Trial& current) {
+bool Newton::step(std::span<const double> Ta, double residual, double shift, Evaluation& current) {
   ++effort_.factorizations;
   const auto factorization = timed(effort_.factorize_s, [&] {
     if (shift == 0) return solver_.factorize(tangent_);
@@ -157,16 +157,16 @@ bool Newton::step(std::span<const double> Ta, double residual, double shift, Tri
       const int unknown = mesh_.unknown[a];
       tried_[a] = current_[a] - (unknown >= 0 ? length * direction_[unknown] : 0.0);
     }
-    const Trial trial = evaluate(Ta, tried_);
-    if (!trial.admissible() || trial.energy > current.energy + armijo * length * slope + noise) continue;
+    const Evaluation tried = evaluate(Ta, tried_);
+    if (!tried.admissible() || tried.energy > current.energy + armijo * length * slope + noise) continue;
     std::swap(current_, tried_);
-    current = trial;
+    current = tried;
     return true;
   }
   return false;
 }
 
-Newton::Trial Newton::evaluate(std::span<const double> Ta, const std::vector<double>& x) {
+Newton::Evaluation Newton::evaluate(std::span<const double> Ta, const std::vector<double>& x) {
   return timed(effort_.energy_s, [&] {
     const auto& grid = mesh_.grid;
 #pragma omp parallel for schedule(static)
@@ -178,8 +178,8 @@ Newton::Trial Newton::evaluate(std::span<const double> Ta, const std::vector<dou
       element_energy_[e] =
           element_J_[e] > 0 ? elastic::element_energy(membrane_, element, tension, grid.h) : NAN;
     }
-    return Trial{std::accumulate(element_energy_.begin(), element_energy_.end(), 0.0),
-                 *std::min_element(element_J_.begin(), element_J_.end())};
+    return Evaluation{std::accumulate(element_energy_.begin(), element_energy_.end(), 0.0),
+                      *std::min_element(element_J_.begin(), element_J_.end())};
   });
 }
 

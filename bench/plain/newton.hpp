@@ -33,15 +33,15 @@ class Newton {
   const NewtonEffort& effort() const { return effort_; }
 
  private:
-  struct Trial {
+  struct Evaluation {
     double energy = 0, min_J = 0;
     bool admissible() const;
   };
 
   bool minimise(std::span<const double> Ta);
   // One direction and its line search; true if a step was accepted.
-  bool step(std::span<const double> Ta, double residual, double shift, Trial& current);
-  Trial evaluate(std::span<const double> Ta, const std::vector<double>& x);
+  bool step(std::span<const double> Ta, double residual, double shift, Evaluation& current);
+  Evaluation evaluate(std::span<const double> Ta, const std::vector<double>& x);
   void assemble(std::span<const double> Ta);
 
   solver::Mesh mesh_;

@@ -97,7 +97,7 @@ struct Equilibrium<ExecutionSpace>::Impl {
     const ExecutionSpace& space;
     const Tension& Ta;
 
-    Trial evaluate() { return trial_at(sheet.current); }
+    Evaluation evaluate() { return evaluate_at(sheet.current); }
     void linearize() { sheet.system.assemble(space, sheet.membrane, sheet.grid, sheet.current, Ta); }
     std::span<const double> residual() const { return sheet.system.residual(); }
     std::span<const double> tangent(double shift) { return sheet.system.tangent(shift); }
@@ -105,23 +105,23 @@ struct Equilibrium<ExecutionSpace>::Impl {
       sheet.system.scatter(step, sheet.direction_host);
       Kokkos::deep_copy(space, sheet.direction, sheet.direction_host);
     }
-    Trial move(double length) {
+    Evaluation move(double length) {
       elastic::move_nodes(space, sheet.current, sheet.direction, length, sheet.tried);
-      return trial_at(sheet.tried);
+      return evaluate_at(sheet.tried);
     }
     void accept() { std::swap(sheet.current, sheet.tried); }
 
     // The sum over the elements runs on the host: one order on every backend.
-    Trial trial_at(const Nodes<MemorySpace>& positions) {
+    Evaluation evaluate_at(const Nodes<MemorySpace>& positions) {
       elastic::element_energies(space, sheet.membrane, sheet.grid, positions, Ta, sheet.energy);
       Kokkos::deep_copy(space, sheet.energy_host, sheet.energy);
       space.fence("myowave::elastic::energy");
-      Trial trial{.energy = 0, .min_J = sheet.energy_host(1, 0)};
+      Evaluation evaluation{.energy = 0, .min_J = sheet.energy_host(1, 0)};
       for (int e = 0; e < sheet.grid.elements(); ++e) {
-        trial.energy += sheet.energy_host(0, e);
-        trial.min_J = std::min(trial.min_J, sheet.energy_host(1, e));
+        evaluation.energy += sheet.energy_host(0, e);
+        evaluation.min_J = std::min(evaluation.min_J, sheet.energy_host(1, e));
       }
-      return trial;
+      return evaluation;
     }
   };
 

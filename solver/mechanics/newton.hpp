@@ -83,19 +83,19 @@ struct NewtonReport {
 };
 
 // Energy and smallest corner J at some positions.
-struct Trial {
+struct Evaluation {
   double energy = 0;
   double min_J = 0;
   bool admissible() const { return min_J > 0 && std::isfinite(energy); }
 };
 
 // Problem:
-//   Trial evaluate()                       at the current positions
+//   Evaluation evaluate()                  at the current positions
 //   void linearize()                       at the current positions
 //   std::span<const double> residual()     there
 //   std::span<const double> tangent(mu)    there: the values of K + mu L for the DirectSolver
 //   void set_direction(d)
-//   Trial move(s)                          tries the positions x + s d
+//   Evaluation move(s)                     tries the positions x + s d
 //   void accept()                          makes the tried positions the current ones
 template <class Problem>
 class Newton {
@@ -106,7 +106,7 @@ class Newton {
   // `start_has_factor`: the solver's last factor is of the tangent at an equilibrium where this starts.
   NewtonReport minimise(bool start_has_factor = false) {
     NewtonReport report;
-    Trial current = timed(report.time.energy, [&] { return problem_.evaluate(); });
+    Evaluation current = timed(report.time.energy, [&] { return problem_.evaluate(); });
     double shift = 0;
     while (true) {
       report.energy = current.energy;
@@ -134,7 +134,7 @@ class Newton {
 
  private:
   // A step with a new factor; true where one was accepted.
-  bool step(Trial& current, double shift, NewtonReport& report) {
+  bool step(Evaluation& current, double shift, NewtonReport& report) {
     ++report.factorizations;
     report.last_shift = shift;
     if (shift > 0) ++report.shifts;
@@ -163,7 +163,7 @@ class Newton {
   }
 
   // The line search along direction_; true where a step was accepted.
-  bool descend(Trial& current, NewtonReport& report) {
+  bool descend(Evaluation& current, NewtonReport& report) {
     const auto residual = problem_.residual();
     double slope = 0;
     for (std::size_t a = 0; a < residual.size(); ++a) slope += residual[a] * direction_[a];
@@ -172,10 +172,10 @@ class Newton {
     const double noise = settings_.energy_noise * (std::abs(current.energy) + settings_.energy_unit);
     double length = 1;
     for (int halving = 0; halving <= settings_.max_halvings; ++halving, length /= 2) {
-      const Trial trial = timed(report.time.energy, [&] { return problem_.move(length); });
-      if (trial.admissible() && trial.energy <= current.energy + settings_.armijo * length * slope + noise) {
+      const Evaluation tried = timed(report.time.energy, [&] { return problem_.move(length); });
+      if (tried.admissible() && tried.energy <= current.energy + settings_.armijo * length * slope + noise) {
         problem_.accept();
-        current = trial;
+        current = tried;
         report.halvings += halving;
         return true;
       }

@@ -27,11 +27,11 @@ constexpr double largest_V = 1;
 constexpr double largest_noise = 0.05;
 
 template <class Real>
-class Trial {
+class SteppedSheet {
  public:
   using View = EnsembleField<Real, Space::memory_space>;
 
-  explicit Trial(const StepTrial& trial)
+  explicit SteppedSheet(const StepTrial& trial)
       : grid_{trial.grid.rows, trial.grid.columns, trial.grid.dx},
         form_(select_form<Space, Real>(trial.form, grid_, elements(trial), trial.cells_per_element,
                                        trial.scheme)) {
@@ -142,7 +142,8 @@ InitialState seeded_front(const StepTrial& trial) {
 
 template <class Action>
 auto with_precision(const StepTrial& trial, const Action& action) {
-  return trial.precision == Precision::float32 ? action(Trial<float>(trial)) : action(Trial<double>(trial));
+  return trial.precision == Precision::float32 ? action(SteppedSheet<float>(trial))
+                                               : action(SteppedSheet<double>(trial));
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ struct Toy {
   std::vector<double> R{0}, K{0};
   int evaluations = 0;
 
-  Trial at(double position) {
+  Evaluation at(double position) {
     ++evaluations;
     return {.energy = energy(position), .min_J = position};
   }
-  Trial evaluate() { return at(x); }
+  Evaluation evaluate() { return at(x); }
   void linearize() {
     R[0] = slope(x);
     K[0] = curvature(x);
@@ -32,7 +32,7 @@ struct Toy {
     return shifted;
   }
   void set_direction(std::span<const double> d) { direction = d[0]; }
-  Trial move(double length) { return at(tried = x + length * direction); }
+  Evaluation move(double length) { return at(tried = x + length * direction); }
   void accept() { x = tried; }
 
   std::vector<double> shifted{0};
@@ -157,13 +157,13 @@ struct NearSaddle {
     });
     return result;
   }
-  Trial at(const std::vector<double>& y) const {
+  Evaluation at(const std::vector<double>& y) const {
     const auto By = product(B, y);
     double energy = 0;
     for (int i = 0; i < n; ++i) energy += y[i] * By[i] / 2 + std::pow(y[i], 4) / 4;
     return {.energy = energy, .min_J = 1};
   }
-  Trial evaluate() const { return at(x); }
+  Evaluation evaluate() const { return at(x); }
   void linearize() {
     R = product(B, x);
     for (int i = 0; i < n; ++i) R[i] += std::pow(x[i], 3);
@@ -184,7 +184,7 @@ struct NearSaddle {
     }
     EXPECT_LT(wrong, 2e-10 * size);
   }
-  Trial move(double length) {
+  Evaluation move(double length) {
     for (int i = 0; i < n; ++i) tried[i] = x[i] + length * direction[i];
     return at(tried);
   }
