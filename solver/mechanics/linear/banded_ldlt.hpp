@@ -1,15 +1,15 @@
-// A = L D L^T of a symmetric band matrix, without pivoting, in tiles of 8 x 8.
+// A = L D L^T of a symmetric band matrix, without pivoting, in blocks of 8 x 8.
 //
 // A small mesh numbered row by row has a narrow band: 55 below the diagonal at 25 x 25 elements.
 // Filling the whole band costs more operations than a fill-reducing ordering, but they are products
-// of tiles that stay in registers and read the last columns of tiles from the first-level cache.
+// of blocks that stay in registers and read the last columns of blocks from the first-level cache.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "solver/mechanics/linear/tile.hpp"
+#include "solver/mechanics/linear/block.hpp"
 
 namespace myowave::solver {
 
@@ -30,12 +30,12 @@ class BandedLdlt {
   void solve(std::span<const double> rhs, std::span<double> solution);
 
  private:
-  // Where a value of the pattern goes in its column of tiles.
+  // Where a value of the pattern goes in its column of blocks.
   struct Place {
     int slot, entry;
   };
 
-  Tile* tile_column(int K) { return L_.data() + static_cast<std::size_t>(K) * (reach_ + 1); }
+  Block* block_column(int K) { return L_.data() + static_cast<std::size_t>(K) * (reach_ + 1); }
   void load(int K, std::span<const double> values);
   void scale_row(int K);
   bool factorize_diagonal(int K);
@@ -43,15 +43,15 @@ class BandedLdlt {
   void factorize_below(int K, int offset);
 
   int n_ = 0;
-  int tiles_ = 0;                   // in the diagonal, the last one filled up with ones
-  int reach_ = 0;                   // tiles below the diagonal one that the band touches
-  std::vector<int> place_begin_;    // (tiles + 1)
-  std::vector<Place> place_;        // by tile column
-  std::vector<Tile> L_;             // (tiles, reach + 1): tile (K + offset, K); the inverse at offset 0
-  std::vector<Tile> inverse_rows_;  // (tiles): the same inverse, row by row
-  std::vector<TileVector> D_, inverse_D_;  // (tiles)
-  std::vector<Tile> scaled_row_;           // (reach): D L^T of the row of tiles under work
-  std::vector<TileVector> x_;              // (tiles + reach): the vector under work, then zeros
+  int blocks_ = 0;                   // in the diagonal, the last one filled up with ones
+  int reach_ = 0;                    // blocks below the diagonal one that the band touches
+  std::vector<int> place_begin_;     // (blocks + 1)
+  std::vector<Place> place_;         // by block column
+  std::vector<Block> L_;             // (blocks, reach + 1): block (K + offset, K); the inverse at offset 0
+  std::vector<Block> inverse_rows_;  // (blocks): the same inverse, row by row
+  std::vector<BlockVector> D_, inverse_D_;  // (blocks)
+  std::vector<Block> scaled_row_;           // (reach): D L^T of the row of blocks under work
+  std::vector<BlockVector> x_;              // (blocks + reach): the vector under work, then zeros
 };
 
 }  // namespace myowave::solver

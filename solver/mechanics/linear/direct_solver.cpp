@@ -50,7 +50,7 @@ Supernodes find_supernodes(std::span<int> row_begin, std::span<int> column) {
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_METIS;
   common.postorder = true;
-  // Supernodes merge up to twice the widths of CHOLMOD's defaults, so that their columns fill tiles
+  // Supernodes merge up to twice the widths of CHOLMOD's defaults, so that their columns fill blocks
   // (bench/HISTORY.md).
   for (auto& width : common.nrelax) width *= 2;
   for (auto& zeros : common.zrelax) zeros *= 2;

@@ -1,9 +1,9 @@
-// A = L D L^T of a sparse symmetric matrix, without pivoting: multifrontal, with dense fronts of tiles.
+// A = L D L^T of a sparse symmetric matrix, without pivoting: multifrontal, with dense fronts of blocks.
 //
 // Columns with the same rows below them form a supernode. Its front is a dense lower triangle of its
 // columns and these rows: it takes up the matrix and what the supernodes before it leave for its rows,
 // its columns are eliminated, and the rest is left for its parent. The operations are those of the
-// ordering that the supernodes come from, at the rate of the tiles.
+// ordering that the supernodes come from, at the rate of the blocks.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "solver/mechanics/linear/banded_ldlt.hpp"
-#include "solver/mechanics/linear/tile.hpp"
+#include "solver/mechanics/linear/block.hpp"
 
 namespace myowave::solver {
 
@@ -35,16 +35,16 @@ class MultifrontalLdlt {
   void solve(std::span<const double> rhs, std::span<double> solution);
 
  private:
-  // Its places: the columns, padding up to a tile, the rows below, padding.
+  // Its places: the columns, padding up to a block, the rows below, padding.
   struct Front {
-    int column_tiles, tiles;
-    int first_tile;              // of its columns in D_
-    std::size_t L_begin;         // its columns of tiles in L_
+    int column_blocks, blocks;
+    int first_block;             // of its columns in D_
+    std::size_t L_begin;         // its columns of blocks in L_
     int parent;                  // -1: none
     int row_begin, rows;         // below, in row_ and parent_offset_
     int value_begin, value_end;  // in value_
     int columns, first_column;
-    std::size_t update_tiles() const { return triangle(tiles - column_tiles); }
+    std::size_t update_blocks() const { return triangle(blocks - column_blocks); }
   };
   // Where a value of the pattern goes in the columns of its front.
   struct Value {
@@ -52,8 +52,8 @@ class MultifrontalLdlt {
   };
 
   static std::size_t triangle(int n) { return static_cast<std::size_t>(n) * (n + 1) / 2; }
-  // Column of tiles K of a lower triangle of `tiles`; its first tile is the diagonal one.
-  static std::size_t column_begin(int tiles, int K) { return triangle(tiles) - triangle(tiles - K); }
+  // Column of blocks K of a lower triangle of `blocks`; its first block is the diagonal one.
+  static std::size_t column_begin(int blocks, int K) { return triangle(blocks) - triangle(blocks - K); }
 
   // The steps of the constructor: the dense storage of each supernode, and of each column its front;
   void make_fronts(const Supernodes&, std::span<int> front_of);
@@ -65,22 +65,22 @@ class MultifrontalLdlt {
   // Place of a permuted row in a front.
   int place_of(const Front&, int r) const;
 
-  bool eliminate(const Front& front, Tile* L, Tile* update);
-  void add_to_parent(const Front& child, const Tile* update, const Front& parent, Tile* L,
-                     Tile* parent_update);
+  bool eliminate(const Front& front, Block* L, Block* update);
+  void add_to_parent(const Front& child, const Block* update, const Front& parent, Block* L,
+                     Block* parent_update);
 
   int n_ = 0;
   std::vector<int> permutation_;
   std::vector<Front> fronts_;
   std::vector<int> row_;            // permuted, below the columns of each front
-  std::vector<int> parent_offset_;  // where these are in a column of tiles of the parent's front
+  std::vector<int> parent_offset_;  // where these are in a column of blocks of the parent's front
   std::vector<Value> value_;        // by front
-  std::vector<Tile> L_, inverse_rows_;
-  std::vector<TileVector> D_, inverse_D_;
-  std::vector<Tile> updates_;  // a stack of what fronts leave for their parents
-  std::vector<Tile> scaled_row_;
+  std::vector<Block> L_, inverse_rows_;
+  std::vector<BlockVector> D_, inverse_D_;
+  std::vector<Block> updates_;  // a stack of what fronts leave for their parents
+  std::vector<Block> scaled_row_;
   std::vector<double> permuted_;
-  std::vector<TileVector> x_;  // of one front
+  std::vector<BlockVector> x_;  // of one front
 };
 
 }  // namespace myowave::solver

@@ -25,7 +25,7 @@ reference::SymmetricMatrix band_matrix(int n, int band, double diagonal, unsigne
   return A;
 }
 
-// Sizes near multiples of the tile of eight columns, bands from none to full.
+// Sizes near multiples of the block of eight columns, bands from none to full.
 TEST(BandedLdlt, SolvesEverySizeAndBand) {
   for (const int n : {1, 2, 7, 8, 9, 15, 16, 17, 40, 83})
     for (const int band : {0, 1, 2, 7, 8, 9, 20, 39, 82}) {

@@ -1,4 +1,4 @@
-// What is done with tiles of 8 x 8 (solver/mechanics/linear/tile.hpp) of a factorisation A = L D L^T, in
+// What is done with blocks of 8 x 8 (solver/mechanics/linear/block.hpp) of a factorisation A = L D L^T, in
 // vector registers. For the solver's own sources: how these functions pass vectors depends on the flags they
 // are compiled with.
 #pragma once
@@ -6,37 +6,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/mechanics/linear/tile.hpp"
+#include "solver/mechanics/linear/block.hpp"
 
-namespace myowave::solver::tile {
+namespace myowave::solver::block {
 
-constexpr int width = tile_width;
+constexpr int width = block_width;
 
-// A column of a tile. GCC's and Clang's own vectors, because a loop over eight numbers is not kept in
+// A column of a block. GCC's and Clang's own vectors, because a loop over eight numbers is not kept in
 // a register; a processor with narrower registers takes two or four for one.
 using Lanes [[gnu::vector_size(width * sizeof(double))]] = double;
 
 inline Lanes& lanes(double* column) { return *reinterpret_cast<Lanes*>(column); }
 inline const Lanes& lanes(const double* column) { return *reinterpret_cast<const Lanes*>(column); }
 
-// `rows` tiles below one another, in registers.
+// `rows` blocks below one another, in registers.
 template <int rows>
-struct TileStack {
+struct BlockStack {
   Lanes c[rows][width];
 
-  void load(const double* tiles) {
+  void load(const double* blocks) {
     for (int r = 0; r < rows; ++r)
-      for (int s = 0; s < width; ++s) c[r][s] = lanes(tiles + (r * width + s) * width);
+      for (int s = 0; s < width; ++s) c[r][s] = lanes(blocks + (r * width + s) * width);
   }
-  void store(double* tiles) const {
+  void store(double* blocks) const {
     for (int r = 0; r < rows; ++r)
-      for (int s = 0; s < width; ++s) lanes(tiles + (r * width + s) * width) = c[r][s];
+      for (int s = 0; s < width; ++s) lanes(blocks + (r * width + s) * width) = c[r][s];
   }
 };
 
-// The first `used` tiles of the stack -= a w^T; a has as many tiles below one another, w one.
+// The first `used` blocks of the stack -= a w^T; a has as many blocks below one another, w one.
 template <int used, int rows>
-inline void subtract_product(TileStack<rows>& stack, const double* a, const double* w) {
+inline void subtract_product(BlockStack<rows>& stack, const double* a, const double* w) {
 #pragma GCC unroll 8
   for (int q = 0; q < width; ++q) {
     Lanes x[used];
@@ -49,11 +49,11 @@ inline void subtract_product(TileStack<rows>& stack, const double* a, const doub
   }
 }
 
-// D and the unit lower triangle below it of one tile, by scalars: the chain of divisions is what
-// takes time, and the products of other tiles overlap with it.
-inline void factorize_tile(const double* tile, double (&a)[width][width], double* D, double* inverse_D) {
+// D and the unit lower triangle below it of one block, by scalars: the chain of divisions is what
+// takes time, and the products of other blocks overlap with it.
+inline void factorize_block(const double* block, double (&a)[width][width], double* D, double* inverse_D) {
   for (int q = 0; q < width; ++q)
-    for (int r = q; r < width; ++r) a[r][q] = tile[q * width + r];
+    for (int r = q; r < width; ++r) a[r][q] = block[q * width + r];
 #pragma GCC unroll 8
   for (int q = 0; q < width; ++q) {
     D[q] = a[q][q];
@@ -83,32 +83,32 @@ inline void invert(const double (&a)[width][width], double* inverse_rows) {
   }
 }
 
-// sum_q tile(:, q) x(q)
-inline Lanes times(const double* tile, const double* x) {
-  Lanes even = lanes(tile) * x[0], odd = lanes(tile + width) * x[1];
+// sum_q block(:, q) x(q)
+inline Lanes times(const double* block, const double* x) {
+  Lanes even = lanes(block) * x[0], odd = lanes(block + width) * x[1];
 #pragma GCC unroll 3
   for (int q = 2; q < width; q += 2) {
-    even += lanes(tile + q * width) * x[q];
-    odd += lanes(tile + (q + 1) * width) * x[q + 1];
+    even += lanes(block + q * width) * x[q];
+    odd += lanes(block + (q + 1) * width) * x[q + 1];
   }
   return even + odd;
 }
 
-// One tile of the diagonal, in place of which stands the inverse of its L afterwards, column by column;
+// One block of the diagonal, in place of which stands the inverse of its L afterwards, column by column;
 // `inverse_rows` is the same row by row. false where a pivot is zero or not finite.
 inline bool factorize_diagonal(double* diagonal, double* D, double* inverse_D, double* inverse_rows) {
   double a[width][width];
-  factorize_tile(diagonal, a, D, inverse_D);
+  factorize_block(diagonal, a, D, inverse_D);
   invert(a, inverse_rows);
   for (int q = 0; q < width; ++q)
     for (int r = 0; r < width; ++r) diagonal[q * width + r] = inverse_rows[r * width + q];
   return std::all_of(D, D + width, [](double d) { return d != 0 && std::isfinite(d); });
 }
 
-// tiles = stack L^-T D^-1, with the inverse of L column by column.
+// blocks = stack L^-T D^-1, with the inverse of L column by column.
 template <int rows>
-inline void divide(const TileStack<rows>& stack, const double* inverse, const double* inverse_D,
-                   double* tiles) {
+inline void divide(const BlockStack<rows>& stack, const double* inverse, const double* inverse_D,
+                   double* blocks) {
 #pragma GCC unroll 8
   for (int s = width - 1; s >= 0; --s) {
 #pragma GCC unroll 2
@@ -116,7 +116,7 @@ inline void divide(const TileStack<rows>& stack, const double* inverse, const do
       Lanes x = stack.c[r][s];
 #pragma GCC unroll 8
       for (int q = 0; q < s; ++q) x += stack.c[r][q] * inverse[q * width + s];
-      lanes(tiles + (r * width + s) * width) = x * inverse_D[s];
+      lanes(blocks + (r * width + s) * width) = x * inverse_D[s];
     }
   }
 }
@@ -132,4 +132,4 @@ inline void subtract_sums(const Lanes (&product)[width], double* z) {
     for (int r = 0; r < width; ++r) z[q] -= product[q][r];
 }
 
-}  // namespace myowave::solver::tile
+}  // namespace myowave::solver::block
