@@ -166,7 +166,7 @@ class TiledSteps {
         tissue::TiledStep<ExecutionSpace, decltype(diffusion_), ModelOf<form, Real>, tissue::NoRecorder>;
     const int members = static_cast<int>(old_.V.extent(0));
     return double(steps_between_solves) /
-           Tiled::Tiles::plan_sweeps(ExecutionSpace(), diffusion_.grid, members, steps_between_solves);
+           Tiled::Tiles::choose_passes(ExecutionSpace(), diffusion_.grid, members, steps_between_solves);
   }
 
   void operator()(int steps) {

@@ -7,7 +7,7 @@
 //   mirrors                  whether these count: edges to outside the sheet have zero weight, and V there
 //   need
 //                            only be finite
-//   metric_rows(...)         row() for a team that sweeps the rows upwards; it copies its weights to
+//   metric_rows(...)         row() for a team that moves up the rows; it copies its weights to
 //                            scratch_entries(slots, pitch) of scratch memory; rows_in_memory(i, rows) lists
 //                            the rows that row i reads from metric_arrays arrays
 #pragma once

@@ -1,23 +1,23 @@
 // Several explicit steps in one launch, bitwise identical to single ones: while the metric is held, a tile of
 // the sheet can take `depth` steps without going back to memory.
 //
-// A team owns the nodes of a tile and sweeps its rows upwards like a wave: at front f it loads row f and
+// A team owns the nodes of a tile and moves up its rows like a wave: at front f it loads row f and
 // takes step `level` = 1 ... depth on row f - lag level. The few rows in flight stay in the team's scratch
 // memory; every row of the sheet is read once and written once. Neighbours that other tiles own are computed
 // again: a tile starts `depth` rows and columns outside, and each step invalidates one of them. Old and new
 // state must be different arrays, because other tiles read the old one. A tile that is a whole sheet has no
-// such neighbours and takes several sweeps of `depth` steps, from one array to the other and back, while its
+// such neighbours and takes several passes of `depth` steps, from one array to the other and back, while its
 // member of an ensemble is in the cache.
 //
 //   view             shape                      unit   access
-//   V, r             (members, rows, columns)   -      read; with several sweeps also write
-//   Ta               (members, rows, columns)   kPa    read; with several sweeps also write
-//   V_next, r_next   (members, rows, columns)   -      write; with several sweeps also read
-//   Ta_next          (members, rows, columns)   kPa    write; with several sweeps also read
+//   V, r             (members, rows, columns)   -      read; with several passes also write
+//   Ta               (members, rows, columns)   kPa    read; with several passes also write
+//   V_next, r_next   (members, rows, columns)   -      write; with several passes also read
+//   Ta_next          (members, rows, columns)   kPa    write; with several passes also read
 #pragma once
 
 #include "kernels/tissue/row_update.hpp"
-#include "kernels/tissue/tile_plan.hpp"
+#include "kernels/tissue/tile_layout.hpp"
 
 namespace myowave::tissue {
 
@@ -54,29 +54,30 @@ struct TiledStep {
   Diffusion diffusion;
   Model model;
   Real dt;
-  TilePlan plan;
+  TileLayout layout;
   int row_tiles, column_tiles;
   Pitch pitch;
   ExcitationFields<View> old_state, new_state;
   int first_step;
   Recorder record;
 
-  // Launches plan.sweeps times plan.depth steps, numbered from first_step on for
+  // Launches layout.passes times layout.depth steps, numbered from first_step on for
   // record(columns, m, i, step, begin, end, V, r), which sees the owned columns of row i before each step.
-  // No fence. plan.columns is a multiple of a line's entries, or all columns, and no more than the widest
-  // tile's; plan.depth is at most the deepest.
+  // No fence. layout.columns is a multiple of a line's entries, or all columns, and no more than the widest
+  // tile's; layout.depth is at most the deepest.
   static void launch(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
-                     const TilePlan& plan, const ExcitationFields<View>& old_state,
+                     const TileLayout& layout, const ExcitationFields<View>& old_state,
                      const ExcitationFields<View>& new_state, int first_step = 0,
                      const Recorder& record = {}) {
     const int members = static_cast<int>(old_state.V.extent(0));
-    const int row_tiles = tiles_of(diffusion.grid.rows, plan.rows),
-              column_tiles = tiles_of(diffusion.grid.columns, plan.columns);
-    const Pitch pitch = Tiles::pitch_in(diffusion.grid, plan.columns, plan.depth);
-    const TiledStep step{diffusion, model,     Real(dt),  plan,       row_tiles, column_tiles,
+    const int row_tiles = tiles_of(diffusion.grid.rows, layout.rows),
+              column_tiles = tiles_of(diffusion.grid.columns, layout.columns);
+    const Pitch pitch = Tiles::pitch_in(diffusion.grid, layout.columns, layout.depth);
+    const TiledStep step{diffusion, model,     Real(dt),  layout,     row_tiles, column_tiles,
                          pitch,     old_state, new_state, first_step, record};
     Policy policy(space, members * row_tiles * column_tiles, Tiles::warps, Tiles::lanes);
-    policy.set_scratch_size(Tiles::scratch_level, Kokkos::PerTeam(Tiles::launch_bytes(diffusion.grid, plan)));
+    policy.set_scratch_size(Tiles::scratch_level,
+                            Kokkos::PerTeam(Tiles::launch_bytes(diffusion.grid, layout)));
     Kokkos::parallel_for("myowave::tissue::tiled_step", policy, step);
   }
 
@@ -95,8 +96,8 @@ struct TiledStep {
     }
   };
 
-  // Source and destination of a sweep.
-  struct Sweep {
+  // Source and destination of a pass.
+  struct Pass {
     const ExcitationFields<View>&from, &to;
     int first_step;
   };
@@ -107,26 +108,26 @@ struct TiledStep {
     const Rings rings = make_rings(team);
     const auto metric = diffusion.metric_rows(columns, tile.member, tile.origin, tile.width,
                                               rings.metric_begin, rings.slots, pitch);
-    for (int n = 0; n < plan.sweeps; ++n) {
+    for (int n = 0; n < layout.passes; ++n) {
       const bool back = n % 2 == 1;
       go_up(team, tile, rings, metric,
-            {back ? new_state : old_state, back ? old_state : new_state, first_step + n * plan.depth});
+            {back ? new_state : old_state, back ? old_state : new_state, first_step + n * layout.depth});
     }
   }
 
  private:
   template <class Metric>
   KOKKOS_FORCEINLINE_FUNCTION void go_up(const TeamMember& team, const Tile& tile, const Rings& rings,
-                                         const Metric& metric, const Sweep& sweep) const {
-    const int depth = plan.depth, rows = diffusion.grid.rows;
+                                         const Metric& metric, const Pass& pass) const {
+    const int depth = layout.depth, rows = diffusion.grid.rows;
     const Columns columns = columns_of(team);
     const int first = Kokkos::max(0, tile.first_row - depth);
     const int top = Kokkos::min(rows, tile.last_row + depth);
     const int share = Tiles::round_up(tiles_of(tile.inside, depth));  // of the columns, to a level
     metric.begin(Kokkos::max(0, tile.first_row - depth + 1));
     for (int front = first; front < tile.last_row + lag * depth; ++front) {
-      [[maybe_unused]] const RowsToCome next = rows_to_come(tile, sweep, metric, front + 1);
-      if (front < top) load(columns, tile, sweep, rings, front);
+      [[maybe_unused]] const RowsToCome next = rows_to_come(tile, pass, metric, front + 1);
+      if (front < top) load(columns, tile, pass, rings, front);
       for (int n = 1; n <= depth; ++n) {
         const int level = opaque(n);
         if constexpr (on_host) next.fetch((level - 1) * share, Kokkos::min(level * share, tile.inside));
@@ -135,9 +136,9 @@ struct TiledStep {
           continue;
         if (level == 1) metric.prepare(i);
         if (on_host && level > 1 && level < depth)
-          advance<true>(columns, tile, sweep, rings, metric, front, level);
+          advance<true>(columns, tile, pass, rings, metric, front, level);
         else
-          advance<false>(columns, tile, sweep, rings, metric, front, level);
+          advance<false>(columns, tile, pass, rings, metric, front, level);
       }
       team.team_barrier();
     }
@@ -152,26 +153,27 @@ struct TiledStep {
 
   KOKKOS_FORCEINLINE_FUNCTION Tile tile_of(int rank) const {
     const int tiles = row_tiles * column_tiles, tile = rank % tiles, columns = diffusion.grid.columns;
-    const int first_row = tile / column_tiles * plan.rows, first_column = tile % column_tiles * plan.columns;
-    const int last_row = Kokkos::min(first_row + plan.rows, diffusion.grid.rows);
-    const int last_column = Kokkos::min(first_column + plan.columns, columns);
-    const int origin = Kokkos::max(0, first_column - plan.depth) / line * line;
-    const int width = (Kokkos::min(last_column + plan.depth, columns) - origin + line - 1) / line * line;
+    const int first_row = tile / column_tiles * layout.rows,
+              first_column = tile % column_tiles * layout.columns;
+    const int last_row = Kokkos::min(first_row + layout.rows, diffusion.grid.rows);
+    const int last_column = Kokkos::min(first_column + layout.columns, columns);
+    const int origin = Kokkos::max(0, first_column - layout.depth) / line * line;
+    const int width = (Kokkos::min(last_column + layout.depth, columns) - origin + line - 1) / line * line;
     return {rank / tiles, first_row, last_row, first_column,
             last_column,  origin,    width,    Kokkos::min(width, columns - origin)};
   }
 
   template <class Metric>
-  KOKKOS_FORCEINLINE_FUNCTION RowsToCome rows_to_come(const Tile& tile, const Sweep& sweep,
+  KOKKOS_FORCEINLINE_FUNCTION RowsToCome rows_to_come(const Tile& tile, const Pass& pass,
                                                       const Metric& metric, int front) const {
     const int m = tile.member, origin = tile.origin, top = diffusion.grid.rows - 1;
     const int loaded = Kokkos::min(front, top), first = Kokkos::clamp(front - lag, 0, top),
-              last = Kokkos::clamp(front - lag * plan.depth, tile.first_row, tile.last_row - 1);
-    RowsToCome rows{{&sweep.from.V(m, loaded, origin), &sweep.from.r(m, first, origin)},
-                    {&sweep.to.V(m, last, origin), &sweep.to.r(m, last, origin)}};
+              last = Kokkos::clamp(front - lag * layout.depth, tile.first_row, tile.last_row - 1);
+    RowsToCome rows{{&pass.from.V(m, loaded, origin), &pass.from.r(m, first, origin)},
+                    {&pass.to.V(m, last, origin), &pass.to.r(m, last, origin)}};
     if constexpr (Model::has_tension) {
-      rows.read[2] = &sweep.from.Ta(m, first, origin);
-      rows.written[2] = &sweep.to.Ta(m, last, origin);
+      rows.read[2] = &pass.from.Ta(m, first, origin);
+      rows.written[2] = &pass.to.Ta(m, last, origin);
     }
     metric.rows_in_memory(first, rows.read + RowsToCome::states);
     return rows;
@@ -180,7 +182,7 @@ struct TiledStep {
   // Initialised to zero: results for entries outside the sheet and beside the computed columns are finite and
   // never used.
   KOKKOS_FORCEINLINE_FUNCTION Rings make_rings(const TeamMember& team) const {
-    const int depth = plan.depth, slots = Tiles::slots_of(depth),
+    const int depth = layout.depth, slots = Tiles::slots_of(depth),
               entries = Tiles::scratch_entries(depth, pitch);
     constexpr int fast = Tiles::scratch_level;  // taken by reference, which a device can't of a static member
     auto* const scratch = static_cast<Real*>(
@@ -204,10 +206,10 @@ struct TiledStep {
     });
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void load(const Columns& columns, const Tile& tile, const Sweep& sweep,
+  KOKKOS_FORCEINLINE_FUNCTION void load(const Columns& columns, const Tile& tile, const Pass& pass,
                                         const Rings& rings, int i) const {
     Real* const V = rings.V(i, 0);
-    const Real* const from = &sweep.from.V(tile.member, i, tile.origin);
+    const Real* const from = &pass.from.V(tile.member, i, tile.origin);
     columns.each_again(0, tile.inside, [=](int j) { V[j] = from[j]; });
     mirror_ends(columns, tile, V);
   }
@@ -215,7 +217,7 @@ struct TiledStep {
   // Most levels read and write scratch rows only. A template parameter says so, because on a host's short
   // rows the decisions before the loop count.
   template <bool between_scratch_rows, class Metric>
-  KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Sweep& sweep,
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const Columns& columns, const Tile& tile, const Pass& pass,
                                            const Rings& rings, const Metric& metric, int front,
                                            int level) const {
     const int m = tile.member, origin = tile.origin, i = front - lag * level;
@@ -229,17 +231,17 @@ struct TiledStep {
     }
     const auto row = metric.row({below, here, above}, i);
     const bool first = !between_scratch_rows && level == 1,
-               last = !between_scratch_rows && level == plan.depth;
+               last = !between_scratch_rows && level == layout.depth;
     const NodeUpdate<Model> update{model,
                                    dt,
                                    here,
-                                   first ? &sweep.from.r(m, i, origin) : rings.r(i),
-                                   tension(first, sweep.from.Ta, rings, m, i, origin),
-                                   last ? &sweep.to.V(m, i, origin) : rings.V(front, level),
-                                   last ? &sweep.to.r(m, i, origin) : rings.r(i),
-                                   tension(last, sweep.to.Ta, rings, m, i, origin)};
+                                   first ? &pass.from.r(m, i, origin) : rings.r(i),
+                                   tension(first, pass.from.Ta, rings, m, i, origin),
+                                   last ? &pass.to.V(m, i, origin) : rings.V(front, level),
+                                   last ? &pass.to.r(m, i, origin) : rings.r(i),
+                                   tension(last, pass.to.Ta, rings, m, i, origin)};
     if (i >= tile.first_row && i < tile.last_row)
-      record(columns, m, i, sweep.first_step + level - 1, tile.first_column, tile.last_column, here + owned,
+      record(columns, m, i, pass.first_step + level - 1, tile.first_column, tile.last_column, here + owned,
              update.r + owned);
     const AdvanceColumn<std::decay_t<decltype(row)>> at{update, row};
     if (last)
@@ -268,7 +270,7 @@ struct TiledStep {
   }
 };
 
-// Any number of steps without a stimulus, in sweeps whose depths differ by one at most. The new state is in
+// Any number of steps without a stimulus, in passes whose depths differ by one at most. The new state is in
 // `state` afterwards; `spare` are fields of the same shape.
 template <class ExecutionSpace, class Diffusion, class Model, class View, class Recorder = NoRecorder>
 void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const Model& model, double dt,
@@ -277,17 +279,17 @@ void tiled_steps(const ExecutionSpace& space, const Diffusion& diffusion, const 
   using Step = TiledStep<ExecutionSpace, Diffusion, Model, Recorder>;
   using Tiles = typename Step::Tiles;
   const int members = static_cast<int>(state.V.extent(0));
-  const int sweeps = Tiles::plan_sweeps(space, diffusion.grid, members, steps);
-  for (int n = 0, done = 0; n < sweeps;) {
-    const int depth = (steps - done) / (sweeps - n);
-    TilePlan plan = Tiles::plan_tiles(space, diffusion.grid, members, depth);
-    const bool whole_sheets = plan.rows == diffusion.grid.rows && plan.columns == diffusion.grid.columns;
-    const int deeper = (steps - done) % (sweeps - n);  // sweeps left that are one step deeper
-    if (whole_sheets) plan.sweeps = sweeps - n - deeper;
-    Step::launch(space, diffusion, model, dt, plan, state, spare, first_step + done, record);
-    if (plan.sweeps % 2 == 1) std::swap(state, spare);
-    n += plan.sweeps;
-    done += plan.sweeps * plan.depth;
+  const int passes = Tiles::choose_passes(space, diffusion.grid, members, steps);
+  for (int n = 0, done = 0; n < passes;) {
+    const int depth = (steps - done) / (passes - n);
+    TileLayout layout = Tiles::choose_tiles(space, diffusion.grid, members, depth);
+    const bool whole_sheets = layout.rows == diffusion.grid.rows && layout.columns == diffusion.grid.columns;
+    const int deeper = (steps - done) % (passes - n);  // passes left that are one step deeper
+    if (whole_sheets) layout.passes = passes - n - deeper;
+    Step::launch(space, diffusion, model, dt, layout, state, spare, first_step + done, record);
+    if (layout.passes % 2 == 1) std::swap(state, spare);
+    n += layout.passes;
+    done += layout.passes * layout.depth;
   }
 }
 

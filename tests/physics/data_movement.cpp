@@ -112,7 +112,7 @@ Recording record(const Action& action) {
   return result;
 }
 
-// Odd: a tile that is a whole sheet takes its sweeps in one launch only where they are equally deep.
+// Odd: a tile that is a whole sheet takes its passes in one launch only where they are equally deep.
 constexpr int interval = 39;
 
 // Four probes and, for the first t.u., a stimulus.

@@ -75,11 +75,11 @@ Fields<Real> single_steps(const Sheet& sheet, const Diffusion& diffusion, int st
 
 template <class Real, int lag = tissue::tile_lag<ExecutionSpace>, class Scheme = tissue::ForwardEuler,
           class Diffusion>
-Fields<Real> one_launch(const Sheet& sheet, const Diffusion& diffusion, const tissue::TilePlan& plan) {
+Fields<Real> one_launch(const Sheet& sheet, const Diffusion& diffusion, const tissue::TileLayout& layout) {
   using Step =
       tissue::TiledStep<ExecutionSpace, Diffusion, solver::Model<Real, Scheme>, tissue::NoRecorder, lag>;
   const auto state = random_state<Real>(sheet), next = empty_state<Real>(sheet);
-  Step::launch(ExecutionSpace(), diffusion, model_of<Real, Scheme>(), dt, plan, state, next);
+  Step::launch(ExecutionSpace(), diffusion, model_of<Real, Scheme>(), dt, layout, state, next);
   return next;
 }
 
@@ -95,7 +95,7 @@ void expect_equal(const Fields<Real>& actual, const Fields<Real>& expected, int 
 }
 
 // The smallest sheet; one row of tiles; several tiles each way with ends of every length.
-const std::array<std::pair<Sheet, tissue::TilePlan>, 6> tilings{{
+const std::array<std::pair<Sheet, tissue::TileLayout>, 6> tilings{{
     {Sheet{2, 2, 1}, {2, 2, 1}},
     {Sheet{5, 33, 4}, {5, 33, 1}},
     {Sheet{37, 41, 4}, {11, 16, 1}},
@@ -108,7 +108,7 @@ class TiledStep : public ::testing::TestWithParam<std::tuple<int, int>> {
  protected:
   const Sheet sheet = tilings[std::get<0>(GetParam())].first;
   const int depth = std::get<1>(GetParam());
-  const tissue::TilePlan plan = [&] {
+  const tissue::TileLayout layout = [&] {
     auto p = tilings[std::get<0>(GetParam())].second;
     p.depth = depth;
     return p;
@@ -117,11 +117,11 @@ class TiledStep : public ::testing::TestWithParam<std::tuple<int, int>> {
   template <class Real>
   void expect_single_steps() const {
     const tissue::IdentityDiffusion<Real, MemorySpace> identity(sheet.grid());
-    expect_equal(one_launch<Real>(sheet, identity, plan), single_steps<Real>(sheet, identity, depth),
+    expect_equal(one_launch<Real>(sheet, identity, layout), single_steps<Real>(sheet, identity, depth),
                  sheet.columns);
     const auto conservative = loaded<Real>(sheet);
-    expect_equal(one_launch<Real>(sheet, conservative, plan), single_steps<Real>(sheet, conservative, depth),
-                 sheet.columns);
+    expect_equal(one_launch<Real>(sheet, conservative, layout),
+                 single_steps<Real>(sheet, conservative, depth), sheet.columns);
   }
 
   template <class Real>
@@ -130,8 +130,8 @@ class TiledStep : public ::testing::TestWithParam<std::tuple<int, int>> {
     constexpr auto nine_point = tissue::Stencil::nine_point;
     const auto expect_same = [&](const auto& diffusion) {
       const auto expected = single_steps<Real, Scheme>(sheet, diffusion, depth);
-      expect_equal(one_launch<Real, 1, Scheme>(sheet, diffusion, plan), expected, sheet.columns);
-      expect_equal(one_launch<Real, 2, Scheme>(sheet, diffusion, plan), expected, sheet.columns);
+      expect_equal(one_launch<Real, 1, Scheme>(sheet, diffusion, layout), expected, sheet.columns);
+      expect_equal(one_launch<Real, 2, Scheme>(sheet, diffusion, layout), expected, sheet.columns);
     };
     expect_same(tissue::IdentityDiffusion<Real, MemorySpace, nine_point>(sheet.grid()));
     expect_same(loaded<Real, nine_point>(sheet));
@@ -149,10 +149,10 @@ TEST_P(TiledStep, SplitStepsAreSingleOnesToTheBit) {
 // The rows in flight and their order are then those of a device.
 TEST_P(TiledStep, ADevicesLagIsSingleStepsToTheBit) {
   const auto conservative = loaded<double>(sheet);
-  expect_equal(one_launch<double, 2>(sheet, conservative, plan),
+  expect_equal(one_launch<double, 2>(sheet, conservative, layout),
                single_steps<double>(sheet, conservative, depth), sheet.columns);
   const auto conservative32 = loaded<float>(sheet);
-  expect_equal(one_launch<float, 2>(sheet, conservative32, plan),
+  expect_equal(one_launch<float, 2>(sheet, conservative32, layout),
                single_steps<float>(sheet, conservative32, depth), sheet.columns);
 }
 
@@ -179,17 +179,17 @@ TEST(TiledSteps, AnyNumberOfStepsInEqualLaunches) {
   }
 }
 
-// The members of an ensemble take several sweeps in one launch, to and fro.
+// The members of an ensemble take several passes in one launch, to and fro.
 TEST(TiledSteps, SweepsOverWholeSheetsAreSingleSteps) {
   constexpr int depth = 7;
   const auto diffusion = loaded<double>(sheet);
   using Step = tissue::TiledStep<ExecutionSpace, std::decay_t<decltype(diffusion)>, solver::Model<double>,
                                  tissue::NoRecorder>;
-  for (const int sweeps : {2, 5}) {
+  for (const int passes : {2, 5}) {
     const auto state = random_state<double>(sheet), next = empty_state<double>(sheet);
     Step::launch(ExecutionSpace(), diffusion, solver::make_model<double>({}, {}), dt,
-                 {sheet.rows, sheet.columns, depth, sweeps}, state, next);
-    expect_equal(sweeps % 2 == 1 ? next : state, single_steps<double>(sheet, diffusion, depth * sweeps),
+                 {sheet.rows, sheet.columns, depth, passes}, state, next);
+    expect_equal(passes % 2 == 1 ? next : state, single_steps<double>(sheet, diffusion, depth * passes),
                  sheet.columns);
   }
 }
@@ -232,22 +232,22 @@ TEST(TiledSteps, ProbesSeeVBeforeEveryStep) {
 }
 
 // Every node belongs to one tile and tiles are as wide as the scratch rows allow.
-TEST(TiledSteps, PlansCoverTheSheetAndKeepTeamsBusy) {
+TEST(TiledSteps, LayoutsCoverTheSheetAndKeepTeamsBusy) {
   using Step = tissue::TiledStep<ExecutionSpace, tissue::IdentityDiffusion<double, MemorySpace>,
                                  solver::Model<double>, tissue::NoRecorder>;
   const ExecutionSpace space;
   const int teams = space.concurrency();
   for (const int n : {2, 121, 251, 1024, 4091}) {
-    const auto plan = Step::Tiles::plan_tiles(space, {n, n, 0.6}, 1, 8);
-    EXPECT_LE(plan.columns, Step::Tiles::widest_tile);
-    EXPECT_TRUE(plan.columns == n || plan.columns % Step::Tiles::line == 0);
-    EXPECT_EQ(plan.depth, 8);
-    const int tiles = tissue::tiles_of(n, plan.rows) * tissue::tiles_of(n, plan.columns);
+    const auto layout = Step::Tiles::choose_tiles(space, {n, n, 0.6}, 1, 8);
+    EXPECT_LE(layout.columns, Step::Tiles::widest_tile);
+    EXPECT_TRUE(layout.columns == n || layout.columns % Step::Tiles::line == 0);
+    EXPECT_EQ(layout.depth, 8);
+    const int tiles = tissue::tiles_of(n, layout.rows) * tissue::tiles_of(n, layout.columns);
     EXPECT_GE(tiles, n >= 16 * teams ? teams : 1);
   }
-  // Many members are parallel enough: no rows are computed twice, and no more sweeps than needed.
-  EXPECT_EQ(Step::Tiles::plan_tiles(space, {121, 121, 0.6}, 64 * teams, 8).rows, 121);
-  EXPECT_EQ(Step::Tiles::plan_sweeps(space, {121, 121, 0.6}, 64 * teams, 80),
+  // Many members are parallel enough: no rows are computed twice, and no more passes than needed.
+  EXPECT_EQ(Step::Tiles::choose_tiles(space, {121, 121, 0.6}, 64 * teams, 8).rows, 121);
+  EXPECT_EQ(Step::Tiles::choose_passes(space, {121, 121, 0.6}, 64 * teams, 80),
             tissue::tiles_of(80, Step::Tiles::largest_depth()));
 }
 

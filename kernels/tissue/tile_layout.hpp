@@ -1,4 +1,4 @@
-// How a sheet is divided for launches of several steps (tiled_step.hpp): tiles, sweeps, and the scratch
+// How a sheet is divided for launches of several steps (tiled_step.hpp): tiles, passes, and the scratch
 // memory of a tile.
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace myowave::tissue {
 
-// The nodes of a tile, the steps of a sweep, and the sweeps of one launch. More than one sweep needs tiles
-// that are whole sheets; after an even number of sweeps the new state is in the arrays of the old one.
-struct TilePlan {
-  int rows = 1, columns = 1, depth = 1, sweeps = 1;
+// The nodes of a tile, the steps of a pass, and the passes of one launch. More than one pass needs tiles
+// that are whole sheets; after an even number of passes the new state is in the arrays of the old one.
+struct TileLayout {
+  int rows = 1, columns = 1, depth = 1, passes = 1;
 };
 
 // Fronts from the load of a row to its first step, and from each step to the next. On a device all levels
@@ -103,40 +103,40 @@ struct Tiling {
     return depth;
   }
 
-  // Cost of a sweep besides its steps, in steps: it loads rows, and its first and last steps wait for memory.
+  // Cost of a pass besides its steps, in steps: it loads rows, and its first and last steps wait for memory.
   // Measured on an EPYC: 1.4 from a cache, up to 5 from memory.
   static constexpr double steps_of_loads = 3;
 
   // Tiles no wider than widest_tile, with as many rows each as keep all teams equally busy.
-  static TilePlan plan_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
+  static TileLayout choose_tiles(const ExecutionSpace& space, const Grid& grid, int members, int depth) {
     const int column_tiles = tiles_of(grid.columns, widest_tile);
     const int columns = column_tiles == 1 ? grid.columns : round_up(tiles_of(grid.columns, column_tiles));
     const double strips = static_cast<double>(members) * column_tiles;
-    TilePlan best{grid.rows, columns, depth};
+    TileLayout best{grid.rows, columns, depth};
     double least = rows_of_a_team(space, grid, members, best);
     for (int row_tiles = 2; grid.rows / row_tiles >= 2 * depth; ++row_tiles) {
       // More tiles only add rows that are computed twice; even perfect balance cannot win.
       if (strips * (grid.rows + row_tiles * (depth - 1)) >= least * teams_of(space)) break;
-      const TilePlan plan{tiles_of(grid.rows, row_tiles), columns, depth};
-      const double cost = rows_of_a_team(space, grid, members, plan);
-      if (cost < least) least = cost, best = plan;
+      const TileLayout layout{tiles_of(grid.rows, row_tiles), columns, depth};
+      const double cost = rows_of_a_team(space, grid, members, layout);
+      if (cost < least) least = cost, best = layout;
     }
     return best;
   }
 
-  // The number of sweeps in which `steps` take the least time: fewer sweeps load less, but where many teams
+  // The number of passes in which `steps` take the least time: fewer passes load less, but where many teams
   // share a sheet most nodes of a deep tile belong to its neighbours.
-  static int plan_sweeps(const ExecutionSpace& space, const Grid& grid, int members, int steps) {
+  static int choose_passes(const ExecutionSpace& space, const Grid& grid, int members, int steps) {
     const int fewest = tiles_of(steps, largest_depth());
     if constexpr (!on_host) return fewest;
     int best = fewest;
     double least = 1e300;
-    for (int sweeps = fewest; sweeps <= steps; sweeps *= 2) {
-      const TilePlan plan = plan_tiles(space, grid, members, tiles_of(steps, sweeps));
-      const int columns = plan.columns + (plan.columns < grid.columns ? 2 * plan.depth : 0);
+    for (int passes = fewest; passes <= steps; passes *= 2) {
+      const TileLayout layout = choose_tiles(space, grid, members, tiles_of(steps, passes));
+      const int columns = layout.columns + (layout.columns < grid.columns ? 2 * layout.depth : 0);
       const double cost =
-          sweeps * (plan.depth + steps_of_loads) * columns * rows_of_a_team(space, grid, members, plan);
-      if (cost < least) least = cost, best = sweeps;
+          passes * (layout.depth + steps_of_loads) * columns * rows_of_a_team(space, grid, members, layout);
+      if (cost < least) least = cost, best = passes;
     }
     return best;
   }
@@ -150,11 +150,11 @@ struct Tiling {
       return {};
   }
 
-  // Bytes of scratch memory a team. On a host the same for every plan, so that later launches do not
+  // Bytes of scratch memory a team. On a host the same for every layout, so that later launches do not
   // allocate; a device has too little for that.
-  static std::size_t launch_bytes(const Grid& grid, const TilePlan& plan) {
+  static std::size_t launch_bytes(const Grid& grid, const TileLayout& layout) {
     if constexpr (on_host) return scratch_bytes(deepest, pitch_in(grid, widest_tile, deepest));
-    return scratch_bytes(plan.depth, pitch_in(grid, plan.columns, plan.depth));
+    return scratch_bytes(layout.depth, pitch_in(grid, layout.columns, layout.depth));
   }
 
  private:
@@ -165,10 +165,11 @@ struct Tiling {
   // Rows that the busiest team computes in a step, with those of its neighbours: on average depth / 2 at each
   // end of a tile.
   static double rows_of_a_team(const ExecutionSpace& space, const Grid& grid, int members,
-                               const TilePlan& plan) {
-    const int row_tiles = tiles_of(grid.rows, plan.rows), column_tiles = tiles_of(grid.columns, plan.columns);
+                               const TileLayout& layout) {
+    const int row_tiles = tiles_of(grid.rows, layout.rows),
+              column_tiles = tiles_of(grid.columns, layout.columns);
     return static_cast<double>(tiles_of(members * row_tiles * column_tiles, teams_of(space))) *
-           (plan.rows + (row_tiles > 1 ? plan.depth - 1 : 0));
+           (layout.rows + (row_tiles > 1 ? layout.depth - 1 : 0));
   }
 };
 
