@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "kernels/transfer/deformation_to_grid.hpp"
 #include "solver/excitation/select_model.hpp"
 #include "solver/excitation/stimulus_schedule.hpp"
 #include "tests/support/allclose.hpp"
