@@ -340,7 +340,7 @@ TEST(Summary, HasNullWhereThereIsNothing) {
 }
 
 TEST(Progress, ShowsTimeRateAndRemainingTime) {
-  solver::Progress progress{100, 400, "run", 312.4e6, 1234, 2};
+  solver::Progress progress{100, 400, {}, 312.4e6, 1234, 2};
   EXPECT_EQ(progress_text(progress, 20, 10),
             " 25 %  t 100/400 t.u. (1000 ms)  ETA 1:00  312 Mcell-steps/s  Newton 1234  tips 2");
   progress.newton_iterations = 0;  // rigid
@@ -352,7 +352,7 @@ TEST(Progress, IsAPlainLineWithoutATerminal) {
   testing::internal::CaptureStderr();
   {
     ProgressLine line(10, false);
-    for (int n = 0; n <= 100; ++n) line.show({double(n), 100, "run", 1e6, 0, 1});
+    for (int n = 0; n <= 100; ++n) line.show({double(n), 100, {}, 1e6, 0, 1});
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "run: 100 %  t 100/100 t.u. (1000 ms)  1 Mcell-steps/s  tips 1\n");
@@ -360,7 +360,7 @@ TEST(Progress, IsAPlainLineWithoutATerminal) {
 
 TEST(Progress, IsSilentWhenAsked) {
   testing::internal::CaptureStderr();
-  ProgressLine(10, true).show({100, 100, "run", 1e6, 0, 1});
+  ProgressLine(10, true).show({100, 100, {}, 1e6, 0, 1});
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
