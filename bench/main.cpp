@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/base/revision.hpp"
 #include "bench/plain/machine.hpp"
 #include "bench/suite.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/denormals.hpp"
 
 namespace {
@@ -65,9 +65,9 @@ void add_context(const bench::Suite& suite) {
   const auto add = [](const char* name, const std::string& value) {
     benchmark::AddCustomContext(name, value);
   };
-  add("myowave", version);
-  add("git_hash", git_hash);
-  add("git_dirty", git_dirty ? "true" : "false");
+  add("myowave", apps::version());
+  add("git_hash", apps::git_revision());
+  add("git_dirty", apps::has_local_changes() ? "true" : "false");
   add("compiler", MYOWAVE_COMPILER);
   add("compiler_flags", MYOWAVE_FLAGS);
   add("kokkos",

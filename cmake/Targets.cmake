@@ -44,13 +44,14 @@ if(MYOWAVE_SANITIZE)
   endif()
 endif()
 
-# The git revision of a build, read at every build.
+# Version and git revision, read at every build. Only this library is compiled again after a commit.
 add_custom_target(myowave_revision
   COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
           -DOUTPUT=${PROJECT_BINARY_DIR}/generated/myowave_version.hpp
           -P ${PROJECT_SOURCE_DIR}/cmake/Revision.cmake
   BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/myowave_version.hpp
   COMMENT "Reading the git revision")
-add_library(myowave_version INTERFACE)
+add_library(myowave_version STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/apps/base/revision.cpp)
 add_dependencies(myowave_version myowave_revision)
-target_include_directories(myowave_version INTERFACE ${PROJECT_BINARY_DIR}/generated)
+target_include_directories(myowave_version PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_link_libraries(myowave_version PRIVATE myowave_options)

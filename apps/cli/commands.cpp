@@ -20,6 +20,7 @@
 #include "apps/base/device.hpp"
 #include "apps/base/memory.hpp"
 #include "apps/base/progress_line.hpp"
+#include "apps/base/revision.hpp"
 #include "apps/base/signals.hpp"
 #include "apps/input/initial_state.hpp"
 #include "apps/input/resample.hpp"
@@ -30,7 +31,6 @@
 #include "apps/results/estimate.hpp"
 #include "apps/results/run_folder.hpp"
 #include "apps/stability/stability.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 #include "solver/excitation/stability.hpp"
 #include "solver/run/device_memory.hpp"
@@ -301,8 +301,8 @@ std::string figure_names() {
 
 void info() {
   const Device device;
-  fmt::print("myowave       {}\n", version);
-  fmt::print("git           {}{}\n", git_hash, git_dirty ? " with changes" : "");
+  fmt::print("myowave       {}\n", version());
+  fmt::print("git           {}{}\n", git_revision(), has_local_changes() ? " with changes" : "");
   fmt::print("backend       {}, {} threads or streams at once\n", Kokkos::DefaultExecutionSpace::name(),
              Kokkos::DefaultExecutionSpace().concurrency());
   fmt::print("host backend  {}, {} threads\n", Kokkos::DefaultHostExecutionSpace::name(),

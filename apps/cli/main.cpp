@@ -12,13 +12,13 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/base/revision.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/help.hpp"
 #include "apps/input/did_you_mean.hpp"
 #include "apps/report/report.hpp"
 #include "apps/sweep/sweep.hpp"
 #include "apps/tradeoff/tradeoff.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 
 namespace {
@@ -166,7 +166,7 @@ int guarded(const std::function<void()>& command) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Reaction-diffusion-mechanics of excitable tissue (Nash & Panfilov 2004)", "myowave"};
-  app.set_version_flag("--version", fmt::format("myowave {} ({})", version, git_hash));
+  app.set_version_flag("--version", fmt::format("myowave {} ({})", apps::version(), apps::git_revision()));
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 the machine failed, 2 the input is wrong, 3 the numerics failed,\n"

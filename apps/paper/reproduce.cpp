@@ -14,9 +14,9 @@
 
 #include "apps/base/file_io.hpp"
 #include "apps/base/page.hpp"
+#include "apps/base/revision.hpp"
 #include "apps/draw/figure.hpp"
 #include "apps/input/did_you_mean.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {
@@ -95,9 +95,9 @@ json reproduction_json(std::span<const Outcome> outcomes, Extent extent, const s
   return {{"command", command},
           {"extent", extent == Extent::full ? "full" : "quick"},
           {"made", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
-          {"version", version},
-          {"git_hash", git_hash},
-          {"git_dirty", git_dirty},
+          {"version", version()},
+          {"git_hash", git_revision()},
+          {"git_dirty", has_local_changes()},
           {"figures", std::move(figures)}};
 }
 
@@ -136,7 +136,7 @@ std::string index_html(const json& reproduction, const fs::path& folder) {
   std::string body = fmt::format(
       "<h1>Nash and Panfilov 2004, reproduced</h1>\n<p><code>{}</code>, {}, myowave {} ({}{})</p>\n",
       html_escape(reproduction["command"].get<std::string>()), reproduction["made"].get<std::string>(),
-      version, git_hash, git_dirty ? " with changes" : "");
+      version(), git_revision(), has_local_changes() ? " with changes" : "");
   for (const auto& figure : reproduction["figures"]) {
     const std::string name = figure["name"];
     body += fmt::format("<section id=\"{0}\"><h2>{1}</h2>\n", name,

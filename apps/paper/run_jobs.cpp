@@ -20,8 +20,8 @@
 #include <thread>
 
 #include "apps/base/file_io.hpp"
+#include "apps/base/revision.hpp"
 #include "apps/input/scene_overrides.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {
@@ -76,12 +76,12 @@ struct JobFiles {
 
 // Its results are there, whole, from the same scene and the same program.
 bool is_done(const JobFiles& files, const std::string& scene) {
-  if (git_dirty || content(files.scene) != scene) return false;
+  if (has_local_changes() || content(files.scene) != scene) return false;
   const auto summary = nlohmann::json::parse(content(files.run / "summary.json"), nullptr, false);
   const auto manifest = nlohmann::json::parse(content(files.run / "manifest.json"), nullptr, false);
   if (summary.is_discarded() || manifest.is_discarded()) return false;
   return summary.contains("failure") && summary["failure"].is_null() &&
-         manifest["program"]["git_hash"] == git_hash;
+         manifest["program"]["git_hash"] == git_revision();
 }
 
 // In the child, between fork and exec: only calls that are safe there.

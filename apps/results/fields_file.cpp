@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/base/file_io.hpp"
-#include "myowave_version.hpp"
+#include "apps/base/revision.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -47,7 +47,7 @@ FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, doub
       shape_(shape),
       file_(create_file(path_.string(), failing(path_), expected_frames)) {
   const auto rows = hsize_t(shape.rows), columns = hsize_t(shape.columns);
-  write_attribute(file_, "program", std::string("myowave ") + version);
+  write_attribute(file_, "program", std::string("myowave ") + version());
   write_attribute(file_, "dx", shape.dx);
   write_attribute(file_, "ms_per_tu", ms_per_tu);
   time_ = create("time", {}, H5T_IEEE_F64LE, "t.u.", "time");

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "apps/base/library_versions.hpp"
-#include "myowave_version.hpp"
+#include "apps/base/revision.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -56,7 +56,10 @@ json manifest_json(const nlohmann::json& effective_configuration) {
   using Space = Kokkos::DefaultExecutionSpace;
   return {{"configuration", effective_configuration},
           {"program",
-           {{"name", "myowave"}, {"version", version}, {"git_hash", git_hash}, {"git_dirty", git_dirty}}},
+           {{"name", "myowave"},
+            {"version", version()},
+            {"git_hash", git_revision()},
+            {"git_dirty", has_local_changes()}}},
           {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
           {"backend", {{"name", Space::name()}, {"threads", Space().concurrency()}}},
           {"machine",

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/base/hdf5_handle.hpp"
-#include "myowave_version.hpp"
+#include "apps/base/revision.hpp"
 
 namespace myowave::apps {
 
@@ -12,7 +12,7 @@ void write_maps(const std::filesystem::path& path, const solver::ActivationMaps&
   const std::string what = "cannot write " + path.string();
   start_hdf5();
   const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, what);
-  write_attribute(file, "program", std::string("myowave ") + version);
+  write_attribute(file, "program", std::string("myowave ") + version());
   write_attribute(file, "dx", maps.dx);
   const std::array<hsize_t, 2> shape{hsize_t(maps.rows), hsize_t(maps.columns)};
   const Hdf5Handle space(H5Screate_simple(2, shape.data(), nullptr), H5Sclose, what);

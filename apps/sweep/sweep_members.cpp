@@ -5,10 +5,10 @@
 #include <atomic>
 #include <mutex>
 
+#include "apps/base/revision.hpp"
 #include "apps/base/signals.hpp"
 #include "apps/input/schema.hpp"
 #include "apps/results/run_folder.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/ensemble.hpp"
@@ -119,7 +119,7 @@ class Members {
                             solver::RunSummary& summary) {
     MemberSink sink(&progress_, index, given_up_);
     // Another revision may keep and compute something else.
-    const std::string identity = fmt::format("sweep member {} of revision {}", run.id, git_hash);
+    const std::string identity = fmt::format("sweep member {} of revision {}", run.id, git_revision());
     std::vector<std::string> refused;
     auto found = solver::find_checkpoint(folder_.checkpoints(run.id), refused);
     for (const auto& line : refused) fmt::print(stderr, "myowave: warning: {}\n", line);

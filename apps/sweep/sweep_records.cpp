@@ -19,10 +19,10 @@
 #include <thread>
 
 #include "apps/base/content_hash.hpp"
+#include "apps/base/revision.hpp"
 #include "apps/input/schema.hpp"
 #include "apps/results/summary_file.hpp"
 #include "apps/sweep/sweep_file.hpp"
-#include "myowave_version.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -131,23 +131,24 @@ json record_json(const SweepRun& run, const solver::RunSummary& summary,
   const json all = summary_json(summary, run.scene.mechanics.has_value(), failure);
   json kept = json::object();
   for (const auto& name : observables) kept[name] = all["observables"][name];
-  return {{"schema", sweep_schema},
-          {"id", run.id},
-          {"program", {{"version", version}, {"git_hash", git_hash}, {"git_dirty", git_dirty}}},
-          {"outcome", outcome(run.scene, summary, failure.has_value())},
-          {"failure", all["failure"]},
-          {"t", all["t"]},
-          {"steps", all["steps"]},
-          {"observables", std::move(kept)},
-          {"mechanics", all["mechanics"]},
-          {"substeps", all["substeps"]},
-          {"warnings", all["warnings"]},
-          {"cost",
-           {{"wall_s", all["wall_s"]},
-            {"precondition_s", summary.precondition_s},
-            {"cell_steps_per_s", all["throughput"]["cell_steps_per_s"]},
-            {"phases", all["phases"]}}},
-          {"configuration", effective_configuration(run.scene)}};
+  return {
+      {"schema", sweep_schema},
+      {"id", run.id},
+      {"program", {{"version", version()}, {"git_hash", git_revision()}, {"git_dirty", has_local_changes()}}},
+      {"outcome", outcome(run.scene, summary, failure.has_value())},
+      {"failure", all["failure"]},
+      {"t", all["t"]},
+      {"steps", all["steps"]},
+      {"observables", std::move(kept)},
+      {"mechanics", all["mechanics"]},
+      {"substeps", all["substeps"]},
+      {"warnings", all["warnings"]},
+      {"cost",
+       {{"wall_s", all["wall_s"]},
+        {"precondition_s", summary.precondition_s},
+        {"cell_steps_per_s", all["throughput"]["cell_steps_per_s"]},
+        {"phases", all["phases"]}}},
+      {"configuration", effective_configuration(run.scene)}};
 }
 
 std::string record_line(const json& record) {
@@ -168,7 +169,7 @@ Records read_records(const fs::path& sweep_folder) {
 
 bool failed(const json& record) { return record["outcome"] == "failed"; }
 
-bool of_this_revision(const json& record) { return record["program"]["git_hash"] == git_hash; }
+bool of_this_revision(const json& record) { return record["program"]["git_hash"] == git_revision(); }
 
 // ---- the lock ---------------------------------------------------------------------------------
 

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "apps/base/revision.hpp"
 #include "apps/input/scene_file.hpp"
 #include "apps/results/run_results.hpp"
-#include "myowave_version.hpp"
 #include "solver/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -92,7 +92,7 @@ TEST(RunJobs, FailureEndsOnlyThoseThatNeedIt) {
 }
 
 TEST(RunJobs, FinishedRunsAreReusedUntilTheirSceneChanges) {
-  if (git_dirty) GTEST_SKIP() << "a program with uncommitted changes repeats every run";
+  if (has_local_changes()) GTEST_SKIP() << "a program with uncommitted changes repeats every run";
   const test::TemporaryFolder folder;
   const std::string from_first =
       small_scene().set("initial", "{type = \"file\", file = \"../runs/first/fields.h5\"}").text();

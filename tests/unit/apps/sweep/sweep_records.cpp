@@ -11,10 +11,10 @@
 #include <fstream>
 #include <thread>
 
+#include "apps/base/revision.hpp"
 #include "apps/sweep/sweep_file.hpp"
 #include "apps/sweep/sweep_slurm.hpp"
 #include "apps/sweep/sweep_table.hpp"
-#include "myowave_version.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -29,7 +29,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-ordered_json record(const std::string& id, const char* outcome = "end", const char* revision = git_hash,
+ordered_json record(const std::string& id, const char* outcome = "end", const char* revision = git_revision(),
                     int schema = sweep_schema) {
   return {{"schema", schema}, {"id", id}, {"program", {{"git_hash", revision}}}, {"outcome", outcome}};
 }
@@ -97,7 +97,8 @@ TEST(Records, EveryFlippedBitIsFound) {
 TEST(Records, ForeignAndNewerLinesAreReported) {
   const RecordsFolder folder;
   folder.write("hello\n\n{\"check\":\"0123456789abcdef\",\"schema\":1}\n" + record_line({{"some", "thing"}}) +
-               record_line(record("new", "end", git_hash, sweep_schema + 1)) + record_line(record("a")) +
+               record_line(record("new", "end", git_revision(), sweep_schema + 1)) +
+               record_line(record("a")) +
                record_line({{"schema", 1}, {"id", "b"}, {"program", "myowave"}, {"outcome", "end"}}) +
                record_line({{"schema", 1}, {"id", "c"}, {"program", {{"git_hash", "x"}}}, {"outcome", 5}}));
   const auto records = folder.read();
