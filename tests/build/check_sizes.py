@@ -13,12 +13,6 @@ from project_files import project_files
 PRODUCTION = ("kernels", "solver", "apps", "bench")
 LIMITS = {"source": 400, "header": 300, "function": 60, "main README": 150, "README": 120}
 
-# What is too long today, by top folder and file name, with ":function" for one of these. The list only shrinks: an
-# entry that is no longer needed fails the check as well.
-TOO_LONG = set("""
-    apps/main.cpp:main
-""".split())
-
 TOKEN = re.compile(r"""
     (?P<comment> //[^\n]*(?:\\\n[^\n]*)* | /\*.*?\*/ )
   | (?P<raw> \b(?:u8|[uUL])?R"(?P<delimiter>[^()\\\s]*)\(.*?\)(?P=delimiter)" )
@@ -94,47 +88,39 @@ def functions(text):
 
 
 def measures(root):
-    """(name in TOO_LONG, place, kind, length) of everything that has a limit."""
+    """(place, kind, length) of everything that has a limit."""
     for name in project_files(root):
         folders = name.split("/")
         if folders[-1] == "README.md":
-            yield name, name, "README" if len(folders) > 1 else "main README", lines_of(root / name)
+            yield name, "README" if len(folders) > 1 else "main README", lines_of(root / name)
         if folders[0] not in PRODUCTION or not name.endswith((".cpp", ".hpp")):
             continue
         text = (root / name).read_text(encoding="utf-8")
-        short = f"{folders[0]}/{folders[-1]}"
-        yield short, name, "source" if name.endswith(".cpp") else "header", text.count("\n")
+        yield name, "source" if name.endswith(".cpp") else "header", text.count("\n")
         try:
             found = functions(text)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from error
         for function, line, length in found:
-            yield f"{short}:{function}", f"{name}:{line}: {function}", "function", length
+            yield f"{name}:{line}: {function}", "function", length
 
 
 def lines_of(path):
     return path.read_text(encoding="utf-8").count("\n")
 
 
-def problems(root, too_long):
-    over = set()
-    count = 0
-    for name, place, kind, length in measures(root):
-        count += 1
-        if length <= LIMITS[kind]:
-            continue
-        over.add(name)
-        if name not in too_long:
+def problems(root):
+    measured = list(measures(root))
+    for place, kind, length in measured:
+        if length > LIMITS[kind]:
             yield f"{place}: {length} lines; a {kind} has at most {LIMITS[kind]}"
-    for name in sorted(too_long - over):
-        yield f"{name} is no longer too long: take it off the list in tests/build/check_sizes.py"
-    if count == 0:
+    if not measured:
         yield "there is nothing to measure"
 
 
 def main(root):
-    found = list(problems(Path(root), TOO_LONG))
-    print("\n".join(found + [f"{len(found)} problems, {len(TOO_LONG)} exceptions"]))
+    found = list(problems(Path(root)))
+    print("\n".join(found + [f"{len(found)} problems"]))
     return 1 if found else 0
 
 
