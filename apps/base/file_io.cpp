@@ -58,7 +58,7 @@ AppendedFile::AppendedFile(std::filesystem::path path, std::uintmax_t size) : pa
   const auto there = std::filesystem::file_size(path_, error);
   if (error || there < size)
     throw std::runtime_error(
-        fmt::format("cannot go on with {}: {}", path_.string(),
+        fmt::format("cannot resume {}: {}", path_.string(),
                     error ? error.message() : fmt::format("{} of its {} bytes are there", there, size)));
   std::filesystem::resize_file(path_, size, error);
   if (error) throw_errno(path_, error.value());

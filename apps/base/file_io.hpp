@@ -1,4 +1,4 @@
-// Writes that tell about their failure: which file, and why.
+// Writes files; an error names the file and the reason.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,13 @@ class AppendedFile {
  public:
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
   AppendedFile(std::filesystem::path, std::string_view header);
-  // Goes on with a file that is there, cut to this size.
+  // Resumes an existing file, cut to this size.
   // Errors: std::runtime_error that names the file where it is not there or smaller.
   AppendedFile(std::filesystem::path, std::uintmax_t size);
   void append(std::string_view rows);
   // The same, over the last `tail` bytes of what was written.
   void append_over_tail(std::string_view text, long tail);
-  // Bytes, all of which are on the disk when this returns.
+  // Bytes. All of them are on the disk when this returns.
   std::uintmax_t sync();
   const std::filesystem::path& path() const { return path_; }
 

@@ -9,7 +9,7 @@
 
 namespace myowave::apps {
 
-// Bytes that can be had without swapping; empty where the system does not tell.
+// Bytes that can be used without swapping; empty if the system does not report them.
 std::optional<std::uint64_t> free_memory();
 
 // Bytes that a run takes of the host's memory, and of a device's where that is another.
@@ -18,7 +18,7 @@ struct MemoryNeed {
 };
 MemoryNeed memory_need(const solver::Scene&);
 
-// How many runs at once fit, each of which needs at most that much: no more than `wanted`, and at least one.
+// How many parallel runs fit if each needs at most that much: at most `wanted`, at least one.
 // What is not known to be free sets no bound.
 int runs_that_fit(int wanted, const MemoryNeed&, const std::optional<std::uint64_t>& free_host,
                   const std::optional<std::uint64_t>& free_device);

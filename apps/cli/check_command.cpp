@@ -32,7 +32,7 @@ std::string seconds_text(double seconds) {
 }
 
 void print_plan(const solver::Plan& plan, double nodes) {
-  fmt::print("{:<18}{:>12}  {}\n", "part", "bytes/node", "what it is, or why it is not there");
+  fmt::print("{:<18}{:>12}  {}\n", "part", "bytes/node", "what it is, or why it is not modelled");
   for (const auto& part : plan.parts) {
     const std::string bytes = part.bytes() > 0 ? fmt::format("{:.1f}", part.bytes() / nodes) : "";
     fmt::print("{:<18}{:>12}  {}\n", part.part, bytes,
@@ -58,10 +58,10 @@ void print_time(const solver::Scene& scene) {
     const Estimate time = estimate(scene);
     fmt::print("time     {}", seconds_text(time.total_s()));
     if (time.settling_s > 0)
-      fmt::print(", {} of it to settle the spiral, which the cache lacks", seconds_text(time.settling_s));
+      fmt::print(", {} of it to settle the spiral (not in the cache)", seconds_text(time.settling_s));
     if (time.preconditions_s > 0) fmt::print(", {} of it preconditions", seconds_text(time.preconditions_s));
     fmt::print("\n");
-  } catch (const std::exception& failure) {  // of the first steps, or of the temporary folder
+  } catch (const std::exception& failure) {  // in the first steps, or in the temporary folder
     fmt::print("time     unknown: {}\n", failure.what());
   }
 }

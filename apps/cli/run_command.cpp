@@ -51,7 +51,7 @@ std::vector<std::string> with_end(std::vector<std::string> overrides, const std:
   return overrides;
 }
 
-// Tells how far a state has come that is computed before there is a result folder.
+// Shows the progress of an initial state, which is computed before the result folder exists.
 class SettlingProgress final : public solver::OutputSink {
  public:
   SettlingProgress(const solver::Scene& scene, bool quiet) : line_(scene.time.ms_per_tu, quiet) {}
@@ -65,14 +65,14 @@ std::string mean_text(const solver::MeanSd& value, std::string_view unit) {
   return fmt::format("{:.2f} +- {:.2f}{} (n = {})", value.mean, value.sd, unit, value.n);
 }
 
-// Of each of Kokkos' memory spaces what the run took at most: "1.5 MiB in Host (1.6 MiB foretold)".
+// The peak memory of the run in each memory space of Kokkos: "1.5 MiB in Host (1.6 MiB estimated)".
 std::string memory_text(const solver::RunSummary& summary) {
   std::string text;
-  const auto foretold = solver::views_of(summary.plan);
+  const auto estimated = solver::views_of(summary.plan);
   for (const auto& [space, bytes] : summary.memory) {
     text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", bytes_text(bytes), space);
-    const auto planned = std::ranges::find(foretold, space, &solver::SpaceBytes::space);
-    if (planned != foretold.end()) text += fmt::format(" ({} foretold)", bytes_text(planned->bytes));
+    const auto planned = std::ranges::find(estimated, space, &solver::SpaceBytes::space);
+    if (planned != estimated.end()) text += fmt::format(" ({} estimated)", bytes_text(planned->bytes));
   }
   return text;
 }
@@ -97,7 +97,7 @@ void print_result(const solver::Scene& scene, const solver::RunSummary& summary,
   fmt::print("  results     {}\n", folder.string());
 }
 
-// Runs, or goes on from a checkpoint, and leaves what came of it in the folder.
+// Runs from the initial state, or resumes from a checkpoint, and writes the results into the folder.
 solver::RunSummary run_into(RunFolder& folder, const std::filesystem::path& out, const solver::Scene& scene,
                             solver::InitialState initial, solver::CheckpointKeeper& keeper,
                             const solver::FoundCheckpoint* from) {
@@ -111,11 +111,11 @@ solver::RunSummary run_into(RunFolder& folder, const std::filesystem::path& out,
     try {
       folder.write_summary(summary, failure.what());
     } catch (const std::exception&) {
-      // A full disk may refuse the summary too; what ended the run is what the user needs to know.
+      // A full disk may refuse the summary too. The user needs the error that ended the run.
     }
     if (dynamic_cast<const solver::Interrupted*>(&failure) == nullptr) throw;
     throw solver::Interrupted(
-        fmt::format("{}; go on with: myowave run --resume {}", failure.what(), out.string()));
+        fmt::format("{}; resume with: myowave run --resume {}", failure.what(), out.string()));
   }
   summary.memory = memory.most();
   folder.write_summary(summary, std::nullopt);
@@ -123,8 +123,8 @@ solver::RunSummary run_into(RunFolder& folder, const std::filesystem::path& out,
   return summary;
 }
 
-// A run that has ended has no checkpoints, and a summary without a failure.
-bool has_ended(const std::filesystem::path& out) {
+// A finished run has no checkpoints, and a summary without a failure.
+bool is_finished(const std::filesystem::path& out) {
   std::ifstream file(out / "summary.json");
   const auto summary = nlohmann::json::parse(file, nullptr, false);
   return summary.is_object() && summary.contains("failure") && summary["failure"].is_null();
@@ -134,26 +134,26 @@ void resume(const std::filesystem::path& out, bool quiet) {
   std::vector<std::string> refused;
   const auto found = solver::find_checkpoint(out / checkpoints_name, refused);
   for (const auto& line : refused) fmt::print(stderr, "myowave: not used: {}\n", line);
-  if (!found && has_ended(out)) {
-    if (!quiet) fmt::print("{}: the run has ended, there is nothing to go on with\n", out.string());
+  if (!found && is_finished(out)) {
+    if (!quiet) fmt::print("{}: the run is finished, there is nothing to resume\n", out.string());
     return;
   }
   if (!found)
     throw solver::InputError(
-        fmt::format("{}: there is no checkpoint to go on from{}; begin the run again, with --force",
-                    out.string(), refused.empty() ? "" : " that is sound"));
+        fmt::format("{}: there is no {}checkpoint to resume from; start the run again, with --force",
+                    out.string(), refused.empty() ? "" : "valid "));
   const solver::Scene scene = load_scene(source_from(found->identity));
   const Device device;
   solver::require_device_memory(scene);
   RunFolder folder(out, scene, found->mark, quiet);
   solver::CheckpointKeeper keeper(out / checkpoints_name, found->identity, &*found);
-  if (!quiet) fmt::print(stderr, "myowave: goes on from {}, t = {:g} t.u.\n", found->file.string(), found->t);
+  if (!quiet) fmt::print(stderr, "myowave: resumes from {}, t = {:g} t.u.\n", found->file.string(), found->t);
   try {
     const auto summary = run_into(folder, out, scene, {}, keeper, &*found);
     if (!quiet) print_result(scene, summary, out);
   } catch (const solver::StateMismatch& error) {
     throw solver::InputError(fmt::format(
-        "{}: {}; go on with the one whose git hash is in {}, or begin the run again, with --force",
+        "{}: {}; resume with the program that has the git hash in {}, or start the run again, with --force",
         found->file.string(), error.what(), (out / "manifest.json").string()));
   }
 }

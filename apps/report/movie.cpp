@@ -84,7 +84,7 @@ solver::Scene scene_of(const ReportRun& run, const StoredFrame& frame, double ev
 
 std::string write_movie(const ReportRun& run, const std::filesystem::path& file) {
   const auto times = run.results().frame_times();
-  if (times.empty()) return "there is no film: the run has no frames in fields.h5 (output.fields = true)";
+  if (times.empty()) return "no movie: the run has no frames in fields.h5 (output.fields = true)";
   const double every = times.size() > 1 ? times[1] - times[0] : 1;
   const FramePicture drawing(scene_of(run, run.results().frame(0), every));
   const auto draw = [&](std::size_t n) {
@@ -98,7 +98,7 @@ std::string write_movie(const ReportRun& run, const std::filesystem::path& file)
     return drawing.draw(frame);
   };
   const Picture first = draw(0);
-  std::signal(SIGPIPE, SIG_IGN);  // an encoder that ends early is told by its status
+  std::signal(SIGPIPE, SIG_IGN);  // the status reports an encoder that ends early
   Encoder encoder({"ffmpeg",
                    "-nostdin",
                    "-loglevel",
@@ -121,10 +121,10 @@ std::string write_movie(const ReportRun& run, const std::filesystem::path& file)
                    "-movflags",
                    "+faststart",
                    "file:" + file.string()});
-  if (!encoder.started()) return "there is no film: ffmpeg is not installed";
+  if (!encoder.started()) return "no movie: ffmpeg is not installed";
   bool taken = encoder.write(first);
   for (std::size_t n = 1; taken && n < times.size(); ++n) taken = encoder.write(draw(n));
-  return encoder.finish() && taken ? "" : "there is no film: ffmpeg failed";
+  return encoder.finish() && taken ? "" : "no movie: ffmpeg failed";
 }
 
 }  // namespace myowave::apps

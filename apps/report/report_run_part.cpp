@@ -73,12 +73,12 @@ void add_memory(std::vector<std::vector<std::string>>& rows, const json& summary
     const json::json_pointer at(fmt::format("/memory/{}", which));
     return summary.contains(at) && summary[at].is_object() ? summary[at] : json::object();
   };
-  const json allocated = spaces_of("most_bytes"), foretold = spaces_of("planned_bytes");
-  json spaces = foretold;
+  const json allocated = spaces_of("most_bytes"), estimated = spaces_of("planned_bytes");
+  json spaces = estimated;
   spaces.update(allocated);
   for (const auto& [space, any] : spaces.items()) {
     std::string words;
-    for (const auto& [bytes, what] : {std::pair{&allocated, "allocated"}, {&foretold, "foretold"}}) {
+    for (const auto& [bytes, what] : {std::pair{&allocated, "allocated"}, {&estimated, "estimated"}}) {
       const json number = bytes->value(space, json());
       if (!number.is_number_integer()) continue;
       words += fmt::format("{}{} {}", words.empty() ? "" : ", ", bytes_text(number), what);

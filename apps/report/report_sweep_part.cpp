@@ -32,11 +32,9 @@ std::string pairs_html(const SweepTable& sweep) {
                     std::to_string(count.missing)});
   }
   return fmt::format(
-             "<h3>Pairs from the same state</h3>\n<p>How the first break-up of the {0} run compares with "
-             "that "
-             "of the {1} one. Never: the {0} run was still whole when the {1} one had broken up, and stayed "
-             "so "
-             "to its end. Undecided: neither broke up while both ran.</p>\n",
+             "<h3>Pairs from the same state</h3>\n<p>First break-up of the {0} run against the {1} run. "
+             "Never: the {1} run broke up, the {0} run did not up to its end. Undecided: neither broke up "
+             "while both ran.</p>\n",
              html_escape(names[1]), html_escape(names[0])) +
          html_table(
              {"", "later", "never", "earlier", "undecided", "delay in s: median (least to most)", "not done"},

@@ -1,4 +1,4 @@
-// How long `myowave run` takes for a scene, told from the begin of that run itself.
+// How long `myowave run` takes for a scene, estimated from the start of that run.
 #pragma once
 
 #include "solver/scene/scene.hpp"

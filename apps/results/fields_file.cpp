@@ -70,14 +70,14 @@ FieldsFile::FieldsFile(const std::filesystem::path& path, const FrameShape& shap
   copy_frames(path, kept.frames);
   if (digest_ != kept.digest)
     throw std::runtime_error(
-        fmt::format("cannot go on with {}: its frames are not those that were written", path.string()));
+        fmt::format("cannot resume {}: its frames are not those that were written", path.string()));
   sync();
   std::filesystem::rename(path_, path);
   path_ = path;
 }
 
 void FieldsFile::copy_frames(const std::filesystem::path& from, std::size_t frames) {
-  const std::string what = fmt::format("cannot go on with {}", from.string());
+  const std::string what = fmt::format("cannot resume {}", from.string());
   // Its writer may have died between the note of a new size and the size itself.
   constexpr std::uintmax_t room = 1 << 20;
   std::error_code error;

@@ -24,7 +24,7 @@ class RunFolder final : public solver::OutputSink {
   // Creates the folder; `force` replaces the results in one that is there and leaves all else in it.
   // Errors: InputError where it holds something and `force` is false, or cannot be written.
   RunFolder(std::filesystem::path folder, const solver::Scene&, bool force, bool quiet);
-  // Goes on in a folder from a mark: what came after it is cut off.
+  // Resumes a folder from a mark: everything after it is cut off.
   // Errors: InputError where a file that the mark speaks of is not there or shorter, or the mark is none.
   RunFolder(std::filesystem::path folder, const solver::Scene&, const std::string& mark, bool quiet);
   ~RunFolder() override;

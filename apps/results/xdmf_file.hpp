@@ -1,4 +1,4 @@
-// fields.xdmf: tells a viewer (ParaView's "XDMF Reader", VisIt) how to show fields.h5: V, r and, where it
+// fields.xdmf: shows a viewer (ParaView's "XDMF Reader", VisIt) how to show fields.h5: V, r and, where it
 // is computed, Ta as a time series on the deformed grid, or on the regular one of a rigid run. (ParaView's
 // Xdmf3 readers know no part of a dataset, which is what a frame is.)
 #pragma once
@@ -18,7 +18,7 @@ class XdmfFile {
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
   XdmfFile(const std::filesystem::path&, const FrameShape&, std::string fields_name);
 
-  // Goes on with one that is there, see AppendedFile.
+  // Resumes an existing file, see AppendedFile.
   XdmfFile(const std::filesystem::path&, const FrameShape&, std::string fields_name, std::uintmax_t size);
 
   std::uintmax_t sync() { return file_.sync(); }

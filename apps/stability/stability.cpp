@@ -142,9 +142,10 @@ void write_maps(const std::vector<solver::StabilityMap>& maps, const fs::path& f
   fmt::print("{} runs tried, {} not handled; results in {}\n", all["tried"].get<int>(),
              all["not_handled"].get<int>(), folder.string());
   if (all["not_handled"].get<int>() > 0)
-    throw solver::NumericalFailure(fmt::format(
-        "{} of {} runs were wrong and nothing would have told; they have handled = no in the tables of {}",
-        all["not_handled"].get<int>(), all["tried"].get<int>(), folder.string()));
+    throw solver::NumericalFailure(
+        fmt::format("{} of {} runs returned a wrong result without an error or a warning: handled = no in "
+                    "the tables of {}",
+                    all["not_handled"].get<int>(), all["tried"].get<int>(), folder.string()));
 }
 
 }  // namespace myowave::apps

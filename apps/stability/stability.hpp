@@ -21,10 +21,10 @@ std::string map_csv(const solver::MapTable&);
 // {tried, not_handled, maps: [{name, caption, tried, not_handled, outcomes: {name: count}}]}
 nlohmann::ordered_json stability_json(std::span<const solver::MapTable>);
 
-// Makes the maps one after the other, writes the files of each as soon as it is done, and prints its
+// Makes the maps sequentially, writes the files of each as soon as it is done, and prints its
 // counts and findings. Replaces the results of an earlier call and leaves all else in the folder.
 // Errors: InputError where the folder cannot be made; NumericalFailure, after everything is written,
-// where a wrong result would have passed without a word.
+// where a run returned a wrong result without an error or a warning.
 void write_maps(const std::vector<solver::StabilityMap>&, const std::filesystem::path& folder);
 
 }  // namespace myowave::apps

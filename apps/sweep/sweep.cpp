@@ -79,18 +79,17 @@ Work work_of(const std::vector<const SweepRun*>& runs, const Records& records, c
   return work;
 }
 
-void tell_what_is_there(const Records& records, const Work& work, const SweepRequest& request) {
+void report_records(const Records& records, const Work& work, const SweepRequest& request) {
   for (const auto& line : records.refused) fmt::print(stderr, "myowave: warning: {}\n", line);
   if (work.other_revision > 0)
     fmt::print(stderr,
-               "myowave: warning: {} of the runs that are done are of another revision of myowave; they are "
-               "kept. --redo-other-revisions does them again\n",
+               "myowave: warning: {} of the finished runs are of another revision of myowave and are not "
+               "repeated; --redo-other-revisions repeats them\n",
                work.other_revision);
   if (request.quiet || work.done == 0) return;
-  fmt::print(stderr, "{} of {} runs are done{}\n", work.done, work.done + work.pending.size(),
-             work.failed > 0
-                 ? fmt::format(", {} of them failed (--retry-failed does them again)", work.failed)
-                 : "");
+  fmt::print(
+      stderr, "{} of {} runs are done{}\n", work.done, work.done + work.pending.size(),
+      work.failed > 0 ? fmt::format(", {} of them failed (--retry-failed repeats them)", work.failed) : "");
 }
 
 int jobs_of(const SweepRequest& request) {
@@ -98,7 +97,7 @@ int jobs_of(const SweepRequest& request) {
   return request.jobs > 0 ? request.jobs : solver::most_workers();
 }
 
-// Each run fits by itself; of those that go on at once, the memory may hold fewer than there are cores.
+// Each run fits alone, but the memory may hold fewer parallel runs than there are cores.
 int jobs_that_fit(int jobs, const std::vector<const SweepRun*>& runs, bool quiet) {
   MemoryNeed largest;
   for (const SweepRun* run : runs) {
@@ -109,14 +108,14 @@ int jobs_that_fit(int jobs, const std::vector<const SweepRun*>& runs, bool quiet
   const int fit = runs_that_fit(jobs, largest, free_host, free_device);
   if (quiet || fit == jobs || std::size_t(fit) >= runs.size()) return fit;
   std::string words;
-  const auto tell = [&](const char* where, std::uint64_t need, const std::optional<std::uint64_t>& free) {
+  const auto add = [&](const char* where, std::uint64_t need, const std::optional<std::uint64_t>& free) {
     if (!free || need == 0) return;
-    words += fmt::format("{}{} of the {}'s memory, of which {} are free", words.empty() ? "" : ", and ",
+    words += fmt::format("{}{} of the {}'s memory ({} are free)", words.empty() ? "" : ", and ",
                          bytes_text(need), where, bytes_text(*free));
   };
-  tell("host", largest.host, free_host);
-  tell("device", largest.device, free_device);
-  fmt::print(stderr, "myowave: {} at once, not {}: a run needs up to {}\n", fit, jobs, words);
+  add("host", largest.host, free_host);
+  add("device", largest.device, free_device);
+  fmt::print(stderr, "myowave: {} runs in parallel, not {}: a run needs up to {}\n", fit, jobs, words);
   return fit;
 }
 
@@ -132,7 +131,7 @@ std::string kind_of(const solver::Scene& scene) {
                      scene.mechanics ? scene.mechanics->cells_per_element : 0, int(scene.precision));
 }
 
-// Of all runs one after another, to t_end. The most that is tried out: an estimate takes 2 s.
+// Time of all runs to t_end, sequentially. The number of estimates is bounded, because one takes 2 s.
 double estimated_seconds(const std::vector<const SweepRun*>& runs) {
   constexpr std::size_t most_tried = 8;
   std::map<std::string, double> seconds_of_step;
@@ -162,13 +161,13 @@ void print_dry_run(const SweepPlan& plan, const std::vector<const SweepRun*>& ru
     fmt::print("  {:<24}{} values, {} to {}\n", axis.key, axis.values.size(),
                axis.values.front().shown.dump(), axis.values.back().shown.dump());
   const std::size_t shared = std::ranges::count_if(runs, [&](auto* run) { return states.is_shared(*run); });
-  fmt::print("  {:<24}{}, which {} runs go on from\n", "shared states", states.one_of_each(runs).size(),
+  fmt::print("  {:<24}{}, from which {} runs start\n", "shared states", states.one_of_each(runs).size(),
              shared);
   fmt::print("  {:<24}{}, {} of them failed\n", "done", work.done, work.failed);
   fmt::print("  {:<24}{}\n", "to do", work.pending.size());
   if (work.pending.empty()) return;
   const double seconds = estimated_seconds(work.pending);
-  fmt::print("  {:<24}about {} with {} at once, where no run ends before its t_end\n", "time",
+  fmt::print("  {:<24}about {} with {} in parallel, if no run ends before its t_end\n", "time",
              duration_text(seconds / jobs), jobs);
 }
 
@@ -211,15 +210,15 @@ void sweep(const SweepRequest& request) {
   RecordFile records(folder.records(shard));
   const Records there = read_records(folder.path());
   const Work work = work_of(runs, there, request);
-  tell_what_is_there(there, work, request);
+  report_records(there, work, request);
   const int at_once = jobs_that_fit(jobs, work.pending, request.quiet);
   Counts counts;
   try {
     do_members(plan, work.pending, folder, at_once, request.quiet, records, counts);
   } catch (const solver::Interrupted&) {
     throw solver::Interrupted(fmt::format(
-        "{}: stopped after {} of {} runs; those under way are kept as checkpoints. The same command "
-        "goes on from there",
+        "{}: stopped after {} of {} runs; unfinished runs are saved as checkpoints. Repeat the command to "
+        "resume them",
         plan.name, work.done + counts.done, runs.size()));
   }
   print_result(plan, work, counts, folder);
@@ -247,8 +246,8 @@ void sweep_status(const std::string& path) {
   for (const auto& lock : files("locks"))
     if (const auto owner = ShardLock::owner_of(lock); !owner.empty())
       fmt::print("  {} is being run by {}\n", lock.stem().string(), owner);
-  if (const auto kept = files("checkpoints"); !kept.empty())
-    fmt::print("  {} begun, with checkpoints\n", kept.size());
+  if (const auto saved = files("checkpoints"); !saved.empty())
+    fmt::print("  {} started, with checkpoints\n", saved.size());
 }
 
 void sweep_table(const std::string& folder, TableFormat format) {

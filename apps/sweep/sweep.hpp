@@ -21,12 +21,12 @@ struct SweepRequest {
   std::optional<SlurmOptions> slurm;
 };
 
-// Does those runs of its shard that have no record yet.
-// Errors: InputError; Interrupted; std::runtime_error where the machine fails: the records so far are whole.
+// Runs those members of its shard that have no record yet.
+// Errors: InputError; Interrupted; std::runtime_error where the machine fails: the records so far are intact.
 void sweep(const SweepRequest&);
 
-// How many runs are done, failed, to do; who is at it.
-// Errors: InputError where the folder is no sweep's.
+// Prints how many runs are done, failed and to do, and which processes run the shards.
+// Errors: InputError if the folder is not that of a sweep.
 void sweep_status(const std::string& folder);
 
 enum class TableFormat { text, csv, json };

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a member shows: how far it has come. Ends it where another one found that the machine fails.
+// Shows the progress of a member. Stops it if another member found that the machine fails.
 class MemberSink final : public solver::OutputSink {
  public:
   MemberSink(SweepProgress* progress, std::size_t index, const std::atomic<bool>& given_up)
       : progress_(progress), index_(index), given_up_(given_up) {}
 
   void progress(const solver::Progress& now) override {
-    if (given_up_) throw solver::Interrupted("another run of the sweep has ended it");
+    if (given_up_) throw solver::Interrupted("another run of the sweep stopped it");
     // A spiral that is settled for the user's cache is a run of its own, which nobody else asks to stop.
     if (now.stage.kind == solver::RunStage::Kind::settling && stop_requested())
       throw solver::Interrupted("stopped");
@@ -80,7 +80,7 @@ class Members {
     return control;
   }
 
-  // A failure is told by the records of the runs that need the state.
+  // The records of the runs that need the state report a failure.
   void make_state(const SweepRun& run, const solver::Execution& execution) {
     MemberSink sink(nullptr, 0, given_up_);
     solver::RunSummary unused;
@@ -118,7 +118,7 @@ class Members {
   void run_with_checkpoints(const SweepRun& run, std::size_t index, const solver::Execution& execution,
                             solver::RunSummary& summary) {
     MemberSink sink(&progress_, index, given_up_);
-    // Another revision may keep and compute something else.
+    // Another revision may save and compute something else.
     const std::string identity = fmt::format("sweep member {} of revision {}", run.id, git_revision());
     std::vector<std::string> refused;
     auto found = solver::find_checkpoint(folder_.checkpoints(run.id), refused);
@@ -131,7 +131,7 @@ class Members {
     try {
       go(run, sink, summary, how);
     } catch (const solver::StateMismatch& error) {
-      fmt::print(stderr, "myowave: warning: {}: {}; the run begins again\n", found->file.string(),
+      fmt::print(stderr, "myowave: warning: {}: {}; the run starts again\n", found->file.string(),
                  error.what());
       summary = {};
       how.resume = nullptr;
@@ -139,7 +139,7 @@ class Members {
     }
   }
 
-  // Not from a checkpoint: the files of the folder would have to go on too.
+  // Not from a checkpoint: the files of the folder would have to be resumed too.
   void run_into_folder(const SweepRun& run, const solver::Execution& execution, solver::RunSummary& summary) {
     const std::lock_guard one_folder(folder_mutex_);  // HDF5 is not for several threads at once
     RunFolder sink(folder_.run_folder(run.id), run.scene, true, true);
@@ -156,7 +156,7 @@ class Members {
   // The same bits as solver::run() on the scene.
   void go(const SweepRun& run, solver::OutputSink& sink, solver::RunSummary& summary,
           const solver::RunControl& how) {
-    // A checkpoint has the state, and what the preconditions had to tell.
+    // A checkpoint has the state and the warnings of the preconditions.
     if (!states_.is_shared(run)) {
       auto state = how.resume ? solver::InitialState() : SweepStates::initial(run, sink);
       solver::run(run.scene, std::move(state), sink, summary, how);

@@ -12,11 +12,11 @@
 
 namespace myowave::apps {
 
-std::string sweep_progress_text(const Counts& counts, std::size_t runs, std::size_t under_way,
-                                double fraction, double seconds) {
+std::string sweep_progress_text(const Counts& counts, std::size_t runs, std::size_t running, double fraction,
+                                double seconds) {
   std::string text = fmt::format("{} of {} runs", counts.done, runs);
   if (counts.failed > 0) text += fmt::format(", {} failed", counts.failed);
-  if (under_way > 0) text += fmt::format(", {} under way", under_way);
+  if (running > 0) text += fmt::format(", {} running", running);
   if (fraction > 0 && fraction < 1)
     text += fmt::format("  ETA {}", clock_text(seconds * (1 - fraction) / fraction));
   return text;
@@ -51,9 +51,9 @@ void SweepProgress::show(bool last) {
   const auto now = Clock::now();
   if (quiet_ || (!last && now - last_shown_ < (terminal_ ? 200ms : 10s))) return;
   last_shown_ = now;
-  const auto under_way = std::ranges::count_if(fractions_, [](double f) { return f > 0 && f < 1; });
+  const auto running = std::ranges::count_if(fractions_, [](double f) { return f > 0 && f < 1; });
   const double all = std::reduce(fractions_.begin(), fractions_.end()) / double(fractions_.size());
-  const std::string text = sweep_progress_text(counts_, fractions_.size(), std::size_t(under_way), all,
+  const std::string text = sweep_progress_text(counts_, fractions_.size(), std::size_t(running), all,
                                                std::chrono::duration<double>(now - start_).count());
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n");
   std::fflush(stderr);

@@ -14,8 +14,8 @@ struct Counts {
   std::size_t done = 0, failed = 0;  // failed ones are done too
 };
 
-// "12 of 80 runs, 1 failed, 2 under way  ETA 3:12". `fraction`: of all that is to do.
-std::string sweep_progress_text(const Counts&, std::size_t runs, std::size_t under_way, double fraction,
+// "12 of 80 runs, 1 failed, 2 running  ETA 3:12". `fraction`: of all that is to do.
+std::string sweep_progress_text(const Counts&, std::size_t runs, std::size_t running, double fraction,
                                 double seconds);
 
 // For all threads at once.

@@ -54,12 +54,12 @@ std::string why_no_record(std::string_view line, json& record) {
     return parent.is_object() && parent.contains(key) && parent[key].is_string();
   };
   if (!is_text(record, "id") || !record.contains("schema") || !record["schema"].is_number_integer())
-    return "is no record of a sweep";
+    return "is not a record of a sweep";
   if (record["schema"] > sweep_schema)
     return fmt::format("is of a newer myowave (schema {}, here {})", record["schema"].get<int>(),
                        sweep_schema);
   if (!is_text(record, "outcome") || !record.contains("program") || !is_text(record["program"], "git_hash"))
-    return "is no record of a sweep";
+    return "is not a record of a sweep";
   return "";
 }
 
@@ -83,7 +83,7 @@ void read_file(const fs::path& path, Records& records) {
     if (!why.empty()) {
       records.refused.push_back(
           fmt::format("{}:{}: the line {}; its run counts as not done, and the sweep "
-                      "does it again",
+                      "repeats it",
                       path.string(), number, why));
       continue;
     }
@@ -99,7 +99,7 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
 }
 
-// What stopped the run. One that goes on after a break-up can still die.
+// What stopped the run. A spiral that broke up can still die.
 const char* outcome(const solver::Scene& scene, const solver::RunSummary& summary, bool failure) {
   if (failure) return "failed";
   if (scene.time.stop_on.breakup && summary.observables.breakup_tu) return "breakup";
@@ -235,7 +235,7 @@ void RecordFile::append(const json& record) {
   const bool whole = written == ssize_t(line.size());
   if (whole && fdatasync(file_) == 0) return;
   const int error = written >= 0 && !whole ? ENOSPC : errno;
-  if (ftruncate(file_, before) != 0) refuse("a part of a line cannot be taken back");
+  if (ftruncate(file_, before) != 0) refuse("a partial line cannot be removed");
   refuse(std::strerror(error));
 }
 
@@ -245,10 +245,9 @@ void RecordFile::require_in_place() const {
 }
 
 void RecordFile::refuse(const std::string& reason) const {
-  throw std::runtime_error(
-      fmt::format("cannot write {}: {}. The records before are whole: once this is mended, the same "
-                  "command goes on from them",
-                  path_.string(), reason));
+  throw std::runtime_error(fmt::format(
+      "cannot write {}: {}. Earlier records are intact: mend this and repeat the command to resume",
+      path_.string(), reason));
 }
 
 }  // namespace myowave::apps

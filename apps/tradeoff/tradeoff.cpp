@@ -105,9 +105,9 @@ std::vector<Trial> trials_of(const std::vector<Setting>& settings, const Variant
   return trials;
 }
 
-void tell(const std::string& line) { fmt::print(stderr, "{}\n", line); }
+void print_line(const std::string& line) { fmt::print(stderr, "{}\n", line); }
 
-// The runs of one study, one after the other.
+// The runs of one study, sequentially.
 class Experiment {
  public:
   Experiment(Study& study, const Variants& variants, const TradeoffRequest& request)
@@ -135,11 +135,11 @@ class Experiment {
       } catch (const solver::InputError& refusal) {
         run.trouble = on_one_line(fmt::format("refused: {}", refusal.what()));
       }
-      tell(fmt::format("reference, dx / {}: {}", k,
-                       run.trouble.empty() ? fmt::format("{:.3g} s", run.wall_s) : run.trouble));
+      print_line(fmt::format("reference, dx / {}: {}", k,
+                             run.trouble.empty() ? fmt::format("{:.3g} s", run.wall_s) : run.trouble));
     }
     if (measures.empty())
-      throw solver::NumericalFailure(fmt::format("no level of the reference came to its end; the last one {}",
+      throw solver::NumericalFailure(fmt::format("no level of the reference reached its end; the last one {}",
                                                  study_.reference_runs.back().trouble));
     std::vector<Measures> from_starts;
     if (is_chaotic(measures)) {
@@ -196,7 +196,7 @@ class Experiment {
     for (std::size_t n = 0; n < starts_.size(); ++n) {
       const std::string name = fmt::format("reference, dx / {}, start {} of {}", k, n + 1, starts_.size());
       MeasuredRun measured = measure(reference_scene(k), starts_[n], name);
-      tell(fmt::format("{}: {:.3g} s", name, measured.wall_s));
+      print_line(fmt::format("{}: {:.3g} s", name, measured.wall_s));
       measures.push_back(std::move(measured.measures));
     }
     return measures;
@@ -219,13 +219,13 @@ class Experiment {
       if (trial.runs.empty() || !starts_.empty()) trial.runs.push_back(std::move(run.measures));
       trial.wall_s.push_back(run.wall_s);
       trial.cell_steps_per_s.push_back(run.cell_steps_per_s);
-      tell(fmt::format("{}: {:.3g} s", name, run.wall_s));
+      print_line(fmt::format("{}: {:.3g} s", name, run.wall_s));
     } catch (const solver::NumericalFailure& failure) {
       trial.trouble = on_one_line(fmt::format("failed: {}", failure.what()));
     } catch (const solver::InputError& refusal) {
       trial.trouble = on_one_line(fmt::format("refused: {}", refusal.what()));
     }
-    if (!trial.trouble.empty()) tell(fmt::format("{}: {}", name, trial.trouble));
+    if (!trial.trouble.empty()) print_line(fmt::format("{}: {}", name, trial.trouble));
   }
 
   Study& study_;
@@ -273,8 +273,8 @@ void warn_of_uncertainty(const Study& study, const std::vector<ErrorTarget>& tar
     const auto value = study.reference->values.find(name);
     if (value == study.reference->values.end()) continue;
     if (!(value->second.uncertainty <= largest))
-      tell(fmt::format("myowave: --target {}: the reference is itself uncertain by {:.2g} {}", name,
-                       value->second.uncertainty, find_observable(name)->unit));
+      print_line(fmt::format("myowave: --target {}: the reference is itself uncertain by {:.2g} {}", name,
+                             value->second.uncertainty, find_observable(name)->unit));
   }
 }
 
@@ -296,7 +296,7 @@ void write_target(const Study& study, const Variants& variants, const std::vecto
         fmt::format("no setting meets {}; {}", targets_text(targets),
                     nearest ? fmt::format("the nearest is \"{}\": {}", of[*nearest]->setting.name,
                                           errors_text(candidates[*nearest].errors, targets))
-                            : "none has all of these errors: the scene does not show what they are of"));
+                            : "no setting has all of these errors: the scene lacks what they measure"));
   }
   const Trial& trial = *of[*chosen];
   const SceneSource source = variants.source(trial.setting.overrides);

@@ -255,12 +255,12 @@ std::string reference_html(const Study& study) {
                         html_escape(fmt::format("{}", fmt::join(run.overrides, " "))),
                         run.trouble.empty() ? fmt::format("{:.3g} s", run.wall_s) : html_escape(run.trouble));
   html = fmt::format("<div class=\"scroll\"><ul>\n{}</ul></div>\n", html);
-  if (!study.reference) return html + "<p class=\"warning\">No run of the reference came to its end.</p>\n";
+  if (!study.reference) return html + "<p class=\"warning\">No run of the reference reached its end.</p>\n";
   if (study.reference->chaotic)
     html += fmt::format(
         "<p class=\"note\">V of the two finest grids differs by more than {} % at the end: the scene is "
-        "chaotic. "
-        "Fields, tips and curves are not compared; means are, against those of several starts.</p>\n",
+        "chaotic. Means are compared with those of several starts; fields, tips and curves are not "
+        "compared.</p>\n",
         chaotic_difference);
   html +=
       "<div class=\"table\"><table><thead><tr><th>what</th><th>grids, coarse to fine</th><th>reference</th>"
@@ -275,9 +275,9 @@ std::string reference_html(const Study& study) {
         value.how);
   }
   return html +
-         "</tbody></table></div>\n<p class=\"faint\">Of curves, fields and tips the grids' numbers are the "
-         "distances "
-         "from one to the next finer.</p>\n";
+         "</tbody></table></div>\n<p class=\"faint\">For curves, fields and tips, the numbers of the grids "
+         "are "
+         "distances between one grid and the next finer one.</p>\n";
 }
 
 std::string troubles_html(const Study& study) {

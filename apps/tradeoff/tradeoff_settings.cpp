@@ -33,7 +33,7 @@ constexpr std::array all{
     Dial{"mechanics.interval", "10,20,40,80,160,320", true, "steps from one solve to the next"},
     Dial{"mechanics.cells_per_element", "2,5,10,25", true, "size of an element, in grid.dx"},
     Dial{"mechanics.tolerance", "1e-2,1e-4,1e-6,1e-8,1e-10", true, "where Newton stops"},
-    Dial{"output.watch_every", "0.2,0.5,1", false, "t.u. from one look for tips to the next"},
+    Dial{"output.watch_every", "0.2,0.5,1", false, "t.u. between samples of the tips"},
 };
 
 std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
@@ -171,12 +171,12 @@ std::vector<Setting> make_settings(std::span<const DialValues> axes, bool produc
 std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
   constexpr double coupling = 0.4;  // t.u. from one solve to the next on the coarsest grid
   constexpr double slowest = 0.05;  // dt of the coarsest, where D asks for none
-  constexpr double looks = 0.2;     // t.u.
+  constexpr double sampling = 0.2;  // t.u.
   const auto& cell = own.excitation;
   const double dx = own.grid.dx, parts = solver::contracts(own) ? 12 : 6;
   const double stable = cell.D > 0 ? dx * dx * cell.C_m / (parts * cell.D) : slowest;
-  // Steps of the coarsest grid from one look to the next.
-  const int steps = static_cast<int>(std::ceil(looks / std::min(stable, slowest) - 1e-9));
+  // Steps of the coarsest grid between samples.
+  const int steps = static_cast<int>(std::ceil(sampling / std::min(stable, slowest) - 1e-9));
   std::vector<std::string> overrides{"accuracy.preset=reference"};
   const auto set = [&](std::string_view key, const auto& value) {
     std::erase_if(overrides, [&](const auto& one) { return one.starts_with(fmt::format("{}=", key)); });
@@ -186,11 +186,11 @@ std::vector<std::string> reference_overrides(const solver::Scene& own, int k) {
   for (const PresetValue& one : find_preset("reference")->values)
     if (one.holds(own.mechanics.has_value())) set(one.key, one.value);
   set("accuracy.dx", fmt::format("{:.15g}", dx / k));
-  set("time.dt", looks / (steps * k * k));
-  for (const char* key : {"output.every", "output.tips_every", "output.probes_every"}) set(key, looks);
+  set("time.dt", sampling / (steps * k * k));
+  for (const char* key : {"output.every", "output.tips_every", "output.probes_every"}) set(key, sampling);
   if (!own.mechanics) return overrides;
   // coupling / k
-  set("mechanics.interval", static_cast<int>(std::lround(coupling / looks)) * steps * k);
+  set("mechanics.interval", static_cast<int>(std::lround(coupling / sampling)) * steps * k);
   if (own.metric == solver::MetricForm::expanded) set("accuracy.scheme", "euler");
   if (solver::contracts(own)) set("accuracy.on_unstable", "substep");
   return overrides;

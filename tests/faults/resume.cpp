@@ -305,7 +305,7 @@ TEST_F(ResumedCommand, WithoutASoundCheckpointSaysWhatToDo) {
   const auto before = read_text(out / "tips.csv");
   const auto outcome = run_myowave({"run", "--resume", out.string()});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.errors, HasSubstr("no checkpoint to go on from that is sound"));
+  EXPECT_THAT(outcome.errors, HasSubstr("no valid checkpoint to resume from"));
   EXPECT_THAT(outcome.errors, HasSubstr("--force"));
   EXPECT_EQ(read_text(out / "tips.csv"), before);
 }

@@ -184,7 +184,7 @@ TEST_F(SweepFaults, StoppedBySignals) {
       status = process.wait();
       EXPECT_THAT(status, AnyOf(0, stopped_on_request)) << process.errors();
       if (status == stopped_on_request) {
-        EXPECT_THAT(process.errors(), HasSubstr("The same command goes on from there"));
+        EXPECT_THAT(process.errors(), HasSubstr("Repeat the command to resume them"));
       }
       ASSERT_LT(stops, 100);
     }

@@ -19,7 +19,7 @@ TEST(Scenes, RigidSpiral) {
   EXPECT_TRUE(run.observable("area").is_null());
   for (const auto& [space, bytes] : run.summary.at("memory").at("most_bytes").items())
     EXPECT_THAT(run.output, testing::ContainsRegex("  memory .*" + apps::bytes_text(bytes) + " in " + space +
-                                                   " \\([0-9.]+ [KM]iB foretold\\)"));
+                                                   " \\([0-9.]+ [KM]iB estimated\\)"));
 }
 
 // Contraction keeps one spiral where the rigid sheet breaks it up, and lengthens its period (found:

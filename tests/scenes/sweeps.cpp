@@ -188,7 +188,7 @@ TEST_F(Sweeps, ADryRunWritesNothing) {
   const Outcome outcome = sweep({"--out", path("dry"), "--dry-run", "--jobs", "2"});
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("small: 6 runs\n"));
-  EXPECT_THAT(outcome.output, HasSubstr("shared states           1, which 6 runs go on from\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("shared states           1, from which 6 runs start\n"));
   EXPECT_THAT(outcome.output, HasSubstr("with 2 at once"));
   EXPECT_FALSE(fs::exists(folder_ / "dry"));
 }
@@ -275,7 +275,7 @@ TEST_F(Sweeps, RepeatsRunsOfOtherRevisionsOnRequest) {
   std::ofstream(file) << others;
   const Outcome kept = sweep({"--out", path("a")});
   EXPECT_EQ(kept.status, 0);
-  EXPECT_THAT(kept.errors, HasSubstr("6 of the runs that are done are of another revision of myowave"));
+  EXPECT_THAT(kept.errors, HasSubstr("6 of the finished runs are of another revision of myowave"));
   EXPECT_EQ(read_text(file), others);
   ASSERT_EQ(sweep({"--out", path("a"), "--redo-other-revisions"}).status, 0);
   EXPECT_TRUE(read_text(file).starts_with(others));

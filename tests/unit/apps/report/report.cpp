@@ -122,8 +122,8 @@ TEST(Report, IsOnePageWhoseTextIsEscaped) {
   EXPECT_THAT(page, HasSubstr("flat &amp; thin"));
   EXPECT_THAT(page, HasSubstr("wrote no fields.h5"));
   EXPECT_THAT(page, HasSubstr("75.0 %")) << "share of the excitation in the time";
-  EXPECT_THAT(page, HasSubstr("memory, Cuda</th><td>2.0 MiB allocated, 1.5 MiB foretold</td>"));
-  EXPECT_THAT(page, HasSubstr("memory, Host</th><td>900 B foretold</td>")) << "what was not measured";
+  EXPECT_THAT(page, HasSubstr("memory, Cuda</th><td>2.0 MiB allocated, 1.5 MiB estimated</td>"));
+  EXPECT_THAT(page, HasSubstr("memory, Host</th><td>900 B estimated</td>")) << "what was not measured";
   for (const char* file : {"probes_V.svg", "probes_V.png", "restitution.svg"})
     EXPECT_TRUE(fs::exists(folder / "page/plots" / file)) << file;
 }

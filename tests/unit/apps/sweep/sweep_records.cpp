@@ -89,7 +89,7 @@ TEST(Records, EveryFlippedBitIsFound) {
     EXPECT_THAT(records.by_id, SizeIs(2)) << at;
     ASSERT_THAT(records.refused, SizeIs(1)) << at;
     EXPECT_THAT(records.refused[0],
-                AllOf(HasSubstr("shard_1_of_1.jsonl:2: the line is"), HasSubstr("the sweep does it again")))
+                AllOf(HasSubstr("shard_1_of_1.jsonl:2: the line is"), HasSubstr("the sweep repeats it")))
         << at;
   }
 }
@@ -104,10 +104,10 @@ TEST(Records, ForeignAndNewerLinesAreReported) {
   const auto records = folder.read();
   EXPECT_THAT(records.by_id, SizeIs(1));
   ASSERT_THAT(records.refused, SizeIs(7));
-  EXPECT_THAT(records.refused[3], HasSubstr(":4: the line is no record of a sweep"));
+  EXPECT_THAT(records.refused[3], HasSubstr(":4: the line is not a record of a sweep"));
   EXPECT_THAT(records.refused[4], HasSubstr(":5: the line is of a newer myowave (schema 2, here 1)"));
-  EXPECT_THAT(records.refused[5], HasSubstr(":7: the line is no record of a sweep"));
-  EXPECT_THAT(records.refused[6], HasSubstr(":8: the line is no record of a sweep"));
+  EXPECT_THAT(records.refused[5], HasSubstr(":7: the line is not a record of a sweep"));
+  EXPECT_THAT(records.refused[6], HasSubstr(":8: the line is not a record of a sweep"));
 }
 
 // Prefers a success to a failure, this revision to another, then the newest.
