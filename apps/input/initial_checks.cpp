@@ -69,16 +69,16 @@ class InitialChecks {
   // type are no mistake.
   void check_unused(const Section& section, std::string_view type) {
     const auto type_given = given_.find("initial.type");
-    const bool type_set = type_given != given_.end() && is_override(type_given->second->source());
+    const bool type_set = type_given != given_.end() && origins_.is_override(*type_given->second);
     for (const Key& key : section.keys) {
       const auto found = given_.find(fmt::format("initial.{}", key.name));
       if (key.only_type.empty() || key.only_type == type || found == given_.end()) continue;
-      if (type_set && !is_override(found->second->source())) continue;
+      if (type_set && !origins_.is_override(*found->second)) continue;
       const std::string help = key.name == "offset" && type == "settled_spiral"      ? hint("core_offset")
                                : key.name == "core_offset" && type == "broken_front" ? hint("offset")
                                                                                      : "";
       read_.problems.add(
-          found->second->source(),
+          origins_.place(*found->second),
           fmt::format("initial.{} belongs to type = \"{}\" and has no effect with type = \"{}\"{}", key.name,
                       key.only_type, type, help));
     }
@@ -114,6 +114,7 @@ class InitialChecks {
   ReadScene& read_;
   Scene& scene_ = read_.scene;
   const std::map<std::string, const toml::node*>& given_ = read_.given;
+  const Origins& origins_ = read_.tables.origins;
   // grid.n is no error, so that others can be compared with it.
   const bool sheet_known_ = read_.fine({"grid.n"});
 };

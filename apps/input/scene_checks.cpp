@@ -9,7 +9,6 @@
 
 #include "apps/input/presets.hpp"
 #include "apps/input/resample.hpp"
-#include "apps/input/scene_overrides.hpp"
 #include "solver/mechanics/rest_state.hpp"
 
 namespace myowave::apps {
@@ -64,7 +63,8 @@ class SceneChecks {
     const double spacing = spacing_of_run(scene_);
     if (!check_node_count(read_, "accuracy.dx", scene_.dx, spacing)) return scene_.grid.dx;
     const auto dt = given_.find("time.dt");
-    if (dt != given_.end() && is_from_preset(*dt->second)) scene_.time.dt = dt_of_preset(spacing);
+    if (dt != given_.end() && read_.tables.origins.is_from_preset(*dt->second))
+      scene_.time.dt = dt_of_preset(spacing);
     return spacing;
   }
 

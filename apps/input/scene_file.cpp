@@ -13,29 +13,41 @@ namespace {
 using solver::Scene;
 
 // From any folder the same.
-void make_state_file_absolute(toml::table& root, const std::filesystem::path& folder) {
-  auto* const initial = root.get_as<toml::table>("initial");
+void make_state_file_absolute(SceneTables& tables, const std::filesystem::path& folder) {
+  auto* const initial = tables.root.get_as<toml::table>("initial");
   auto* const file = initial == nullptr ? nullptr : initial->get_as<std::string>("file");
   if (file == nullptr) return;
   const std::filesystem::path given = file->get();
-  *file = std::filesystem::absolute(is_override(file->source()) ? given : folder / given).string();
+  *file = std::filesystem::absolute(tables.origins.is_override(*file) ? given : folder / given).string();
+}
+
+Scene read(SceneTables tables, const std::filesystem::path& file, Problems& problems) {
+  apply_preset(tables);
+  ReadScene scene = read_against_schema(tables, file, problems);
+  check_scene(scene);
+  return std::move(scene.scene);
+}
+
+SceneTables overridden(std::string_view text, const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides, Problems& problems) {
+  SceneTables tables{parse_toml(text, file, problems)};
+  for (const std::string& one : overrides) apply_override(tables, one, problems);
+  return tables;
 }
 
 }  // namespace
 
-Scene read_tables(toml::table root, const std::filesystem::path& file,
-                  const std::vector<std::string>& overrides, Problems& problems) {
-  for (const std::string& one : overrides) apply_override(root, one, problems);
-  apply_preset(root);
-  ReadScene read = read_root(root, file, problems);
-  check_scene(read);
-  return std::move(read.scene);
+Scene read_tables(const toml::table& root, const std::filesystem::path& file,
+                  std::span<const TableOverride> overrides, Problems& problems) {
+  SceneTables tables{root};
+  for (const auto& [key, value] : overrides) apply_override(tables, key, *value, problems);
+  return read(std::move(tables), file, problems);
 }
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const std::vector<std::string>& overrides) {
   Problems problems(file.string());
-  Scene scene = read_tables(parse_toml(text, file, problems), file, overrides, problems);
+  Scene scene = read(overridden(text, file, overrides, problems), file, problems);
   problems.throw_if_any();
   return scene;
 }
@@ -43,13 +55,12 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 std::string overridden_text(std::string_view text, const std::filesystem::path& file,
                             const std::vector<std::string>& overrides) {
   Problems problems(file.string());
-  toml::table root = parse_toml(text, file, problems);
-  for (const std::string& one : overrides) apply_override(root, one, problems);
+  SceneTables tables = overridden(text, file, overrides, problems);
   problems.throw_if_any();
-  leave_to_preset(root);
-  make_state_file_absolute(root, file.parent_path());
+  leave_to_preset(tables);
+  make_state_file_absolute(tables, file.parent_path());
   std::ostringstream written;
-  written << root << '\n';
+  written << tables.root << '\n';
   return written.str();
 }
 

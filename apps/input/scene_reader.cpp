@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "apps/input/did_you_mean.hpp"
-#include "apps/input/scene_overrides.hpp"
 #include "apps/input/schema.hpp"
 
 namespace myowave::apps {
@@ -61,8 +60,8 @@ std::optional<std::array<int, 2>> int_pair(const toml::node* node, const Range& 
 
 class SceneReader {
  public:
-  SceneReader(const toml::table& root, const std::filesystem::path& file, Problems& problems)
-      : folder_(file.parent_path()), read_{.root = root, .problems = problems} {
+  SceneReader(const SceneTables& tables, const std::filesystem::path& file, Problems& problems)
+      : folder_(file.parent_path()), read_{.tables = tables, .problems = problems} {
     scene_.name = file.stem().string();
   }
 
@@ -151,7 +150,7 @@ class SceneReader {
     for (const auto& [name, node] : table) {
       if (find_key(section, name.str()) == nullptr &&
           find_section(path + "." + std::string(name.str())) == nullptr) {
-        unknown_key(section, name, path);
+        unknown_key(section, name, table, path);
       }
     }
     for (std::string_view other : section.inherits) {
@@ -170,12 +169,14 @@ class SceneReader {
       if (const toml::node* node = table.get(key.name)) {
         read_value(key, *node, fmt::format("{}.{}", path, key.name), target);
       } else if (key.required) {
-        problems_.add(table.source(), fmt::format("{}.{} is missing: {}", path, key.name, requirement(key)));
+        problems_.add(origins_.place(table),
+                      fmt::format("{}.{} is missing: {}", path, key.name, requirement(key)));
       }
     }
   }
 
-  void unknown_key(const Section& section, const toml::key& name, const std::string& path) {
+  void unknown_key(const Section& section, const toml::key& name, const toml::table& table,
+                   const std::string& path) {
     std::vector<std::string_view> names;
     for (const Key& key : section.keys) names.push_back(key.name);
     for (std::string_view other : section.inherits) {
@@ -192,7 +193,7 @@ class SceneReader {
       }
     }
     if (help.empty()) help = fmt::format("; keys: {}", fmt::join(names, ", "));
-    problems_.add(name.source(),
+    problems_.add(origins_.place(name, table),
                   fmt::format("unknown key \"{}\" in [{}]{}", printable(name.str()), path, help));
   }
 
@@ -201,7 +202,8 @@ class SceneReader {
   void bad(const std::string& path, const toml::node& node, const std::string& required,
            const std::string& help = "") {
     wrong_.insert(path);
-    problems_.add(node.source(), fmt::format("{} must be {}, not {}{}", path, required, shown(node), help));
+    problems_.add(origins_.place(node),
+                  fmt::format("{} must be {}, not {}{}", path, required, shown(node), help));
   }
 
   void read_value(const Key& key, const toml::node& node, const std::string& path, Target& target) {
@@ -267,7 +269,7 @@ class SceneReader {
     const auto value = node.value_exact<std::string>();
     if (!value || value->empty()) return false;
     const std::filesystem::path given(*value);
-    kind.set(target, (is_override(node.source()) ? given : folder_ / given).string());
+    kind.set(target, (origins_.is_override(node) ? given : folder_ / given).string());
     return true;
   }
 
@@ -309,8 +311,9 @@ class SceneReader {
       if (std::ranges::find(names, name.str()) != names.end()) continue;
       known = false;
       wrong_.insert(path);
-      problems_.add(name.source(), fmt::format("unknown key \"{}\" in {}{}", printable(name.str()), path,
-                                               hint(did_you_mean(name.str(), names))));
+      problems_.add(origins_.place(name, *table),
+                    fmt::format("unknown key \"{}\" in {}{}", printable(name.str()), path,
+                                hint(did_you_mean(name.str(), names))));
     }
     if (!known) return false;
     const bool is_disc = table->contains("center") || table->contains("radius");
@@ -362,7 +365,8 @@ class SceneReader {
 
   std::filesystem::path folder_;
   ReadScene read_;
-  const toml::table& root_ = read_.root;
+  const toml::table& root_ = read_.tables.root;
+  const Origins& origins_ = read_.tables.origins;
   Problems& problems_ = read_.problems;
   Scene& scene_ = read_.scene;
   std::map<std::string, const toml::node*>& given_ = read_.given;
@@ -377,22 +381,24 @@ bool ReadScene::fine(std::initializer_list<std::string_view> paths) const {
 }
 
 void ReadScene::conflict(std::initializer_list<std::string> paths, const std::string& message) {
-  const toml::source_region* place = nullptr;
+  std::optional<toml::source_region> place;
   for (const std::string& path : paths) {
     const auto found = given.find(path);
     if (found == given.end()) continue;
-    const toml::source_region& here = source_of(*found->second);
-    if (place == nullptr || (is_override(here) && !is_override(*place))) place = &here;
+    const toml::source_region here = place_of(*found->second);
+    if (!place || (is_override(here) && !is_override(*place))) place = here;
   }
-  problems.add(place == nullptr ? toml::source_region{} : *place, message);
+  problems.add(place.value_or(toml::source_region{}), message);
 }
 
-const toml::source_region& ReadScene::source_of(const toml::node& node) const {
-  return is_from_preset(node) ? root.at_path(preset_key).node()->source() : node.source();
+toml::source_region ReadScene::place_of(const toml::node& node) const {
+  const bool of_preset = tables.origins.is_from_preset(node);
+  return tables.origins.place(of_preset ? *tables.root.at_path(preset_key).node() : node);
 }
 
-ReadScene read_root(const toml::table& root, const std::filesystem::path& file, Problems& problems) {
-  return SceneReader(root, file, problems).read();
+ReadScene read_against_schema(const SceneTables& tables, const std::filesystem::path& file,
+                              Problems& problems) {
+  return SceneReader(tables, file, problems).read();
 }
 
 }  // namespace myowave::apps

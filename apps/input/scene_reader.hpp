@@ -10,14 +10,14 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/input/toml_input.hpp"
+#include "apps/input/scene_overrides.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace myowave::apps {
 
 // A scene with the places that its values come from.
 struct ReadScene {
-  const toml::table& root;
+  const SceneTables& tables;
   Problems& problems;
   solver::Scene scene{};
   std::map<std::string, const toml::node*> given{};  // by path: "grid.n", "stimulus.0", ...
@@ -28,11 +28,12 @@ struct ReadScene {
   bool fine(std::initializer_list<std::string_view> paths) const;
   // Reports at the first of the paths that the scene gives, one of --set before one of the file.
   void conflict(std::initializer_list<std::string> paths, const std::string& message);
-  // Of a preset's value the place of the preset.
-  const toml::source_region& source_of(const toml::node&) const;
+  // Of a value where problems have it; of a preset's value the place of the preset.
+  toml::source_region place_of(const toml::node&) const;
 };
 
-// `root` and `problems` must outlive the result. Paths in the tables are relative to the file's folder.
-ReadScene read_root(const toml::table& root, const std::filesystem::path& file, Problems& problems);
+// `tables` and `problems` must outlive the result. Paths in the tables are relative to the file's folder.
+ReadScene read_against_schema(const SceneTables& tables, const std::filesystem::path& file,
+                              Problems& problems);
 
 }  // namespace myowave::apps

@@ -204,11 +204,11 @@ class JobQueue {
 
 SceneText& SceneText::set(std::string_view key, std::string_view value) {
   Problems problems("scene");
-  toml::table scene = parse_toml(text_, "scene", problems);
+  SceneTables scene{parse_toml(text_, "scene", problems)};
   apply_override(scene, fmt::format("{}={}", key, value), problems);
   problems.throw_if_any();
   std::ostringstream text;
-  text << scene << '\n';
+  text << scene.root << '\n';
   text_ = text.str();
   return *this;
 }

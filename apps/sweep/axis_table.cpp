@@ -94,23 +94,15 @@ Varied find_varied(const toml::node& node, const std::string& path, Problems& pr
 }
 
 // Paths of a value are relative to the sweep file, those of an override to the working directory.
-std::string override_value(const Varied& varied, const toml::node& node,
-                           const std::filesystem::path& folder) {
-  const auto placed = [&](const toml::node& path) {
-    return toml_string((folder / *path.value<std::string>()).string());
+void place_paths(const Varied& varied, toml::node& value, const std::filesystem::path& folder) {
+  const auto place = [&](const Key* key, toml::node& node) {
+    auto* const path = node.as_string();
+    if (key != nullptr && std::holds_alternative<Path>(key->kind) && path != nullptr)
+      *path = (folder / path->get()).string();
   };
-  if (varied.key != nullptr && std::holds_alternative<Path>(varied.key->kind) && node.is_string())
-    return placed(node);
-  const toml::table* table = node.as_table();
-  if (table == nullptr || varied.key != nullptr) return toml_value(node);
-  std::string text;
-  for (const auto& [name, value] : *table) {
-    const Key* key = find_key(*varied.section, name.str());
-    const bool path = key != nullptr && std::holds_alternative<Path>(key->kind) && value.is_string();
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", toml_string(name.str()),
-                        path ? placed(value) : toml_value(value));
-  }
-  return "{" + text + "}";
+  if (varied.key != nullptr) return place(varied.key, value);
+  if (auto* const table = value.as_table())
+    for (auto&& [name, node] : *table) place(find_key(*varied.section, name.str()), node);
 }
 
 class AxisReader {
@@ -118,7 +110,7 @@ class AxisReader {
   AxisReader(const toml::table& table, std::size_t number, Problems& problems)
       : table_(table), section_(fmt::format("axis.{}", number)), problems_(problems) {}
 
-  SweepAxis read(const std::filesystem::path& folder, const std::optional<LatinHypercube>& sampling) {
+  ReadAxis read(const std::filesystem::path& folder, const std::optional<LatinHypercube>& sampling) {
     require_known_keys(table_, section_, {"key", "values", "names", "min", "max", "num", "scale", "seeds"},
                        problems_);
     const auto* key = table_["key"].as_string();
@@ -143,7 +135,7 @@ class AxisReader {
     if (!has("values") && has("names"))
       problems_.add(table_.get("names")->source(), section_ + ".names belongs to values");
     if (problems_.size() != before) axis_.values.clear();
-    return std::move(axis_);
+    return {std::move(axis_), std::move(nodes_)};
   }
 
  private:
@@ -162,7 +154,9 @@ class AxisReader {
     if (values == nullptr || values->empty() || values->size() > most_runs)
       return bad("values", fmt::format("an array of 1 to {} values", most_runs));
     for (const toml::node& value : *values) {
-      axis_.values.push_back({override_value(varied_, value, folder), json_of(value), place_of(value)});
+      nodes_.push_back(value);
+      place_paths(varied_, nodes_.back(), folder);
+      axis_.values.push_back({json_of(value), place_of(value)});
       if (varied_.key == nullptr && !has("names")) {
         problems_.add(value.source(),
                       fmt::format("{}.names is missing: tables show values of \"{}\" by their names",
@@ -172,8 +166,9 @@ class AxisReader {
     }
     if (has("names")) read_names();
     std::set<std::string> seen, names;
-    for (const auto& value : axis_.values) {
-      if (!seen.insert(value.toml).second || !names.insert(value.shown.dump()).second)
+    for (std::size_t n = 0; n < axis_.values.size(); ++n) {
+      const AxisValue& value = axis_.values[n];
+      if (!seen.insert(toml_value(nodes_[n])).second || !names.insert(value.shown.dump()).second)
         problems_.add(region_of(value.place),
                       fmt::format("{}: {} stands there twice", section_, value.shown.dump()));
     }
@@ -197,8 +192,10 @@ class AxisReader {
       return bad("seeds", fmt::format("a number of seeds, 1 to {}", most_runs));
     if (varied_.key == nullptr || varied_.key->name != "seed")
       return bad("key", "\"initial.seed\" where there are seeds");
-    for (std::int64_t seed = 1; seed <= *count; ++seed)
-      axis_.values.push_back({std::to_string(seed), seed, place_of(*table_.get("seeds"))});
+    for (std::int64_t seed = 1; seed <= *count; ++seed) {
+      nodes_.push_back(seed);
+      axis_.values.push_back({seed, place_of(*table_.get("seeds"))});
+    }
   }
 
   void read_range(const std::optional<LatinHypercube>& sampling, std::size_t number) {
@@ -255,9 +252,14 @@ class AxisReader {
                          (std::holds_alternative<Integer>(varied_.key->kind) ||
                           std::holds_alternative<Size>(varied_.key->kind)) &&
                          value == std::round(value) && std::abs(value) < 1e15;
-    nlohmann::ordered_json shown = value;
-    if (integer) shown = std::int64_t(value);
-    axis_.values.push_back({shown.dump(), shown, place_of(*table_.get("min"))});
+    const Place place = place_of(*table_.get("min"));
+    if (integer) {
+      nodes_.push_back(std::int64_t(value));
+      axis_.values.push_back({std::int64_t(value), place});
+    } else {
+      nodes_.push_back(value);
+      axis_.values.push_back({value, place});
+    }
   }
 
   const toml::table& table_;
@@ -265,12 +267,13 @@ class AxisReader {
   Problems& problems_;
   Varied varied_;
   SweepAxis axis_;
+  toml::array nodes_;
 };
 
 }  // namespace
 
-SweepAxis read_axis(const toml::table& table, const std::filesystem::path& folder,
-                    const std::optional<LatinHypercube>& sampling, std::size_t number, Problems& problems) {
+ReadAxis read_axis(const toml::table& table, const std::filesystem::path& folder,
+                   const std::optional<LatinHypercube>& sampling, std::size_t number, Problems& problems) {
   return AxisReader(table, number, problems).read(folder, sampling);
 }
 

@@ -18,11 +18,17 @@ struct LatinHypercube {
   std::uint64_t seed = 0;
 };
 
+// An axis with what the scene gets for each of its values.
+struct ReadAxis {
+  SweepAxis axis;
+  toml::array nodes{};
+};
+
 // Reads an [[axis]] table. `sampling`: what the file's [latin_hypercube] says; a value of each axis that it
 // samples lies in each of `samples` equal parts of its range. Paths in values are relative to `folder`.
 // Returns an axis without values where something is wrong, which is then among the problems.
-SweepAxis read_axis(const toml::table&, const std::filesystem::path& folder,
-                    const std::optional<LatinHypercube>& sampling, std::size_t number, Problems&);
+ReadAxis read_axis(const toml::table&, const std::filesystem::path& folder,
+                   const std::optional<LatinHypercube>& sampling, std::size_t number, Problems&);
 
 // As problems have it.
 inline toml::source_region region_of(const Place& place) {

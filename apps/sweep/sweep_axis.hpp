@@ -15,7 +15,6 @@ struct Place {
 
 // A value on an axis.
 struct AxisValue {
-  std::string toml;              // what the scene gets
   nlohmann::ordered_json shown;  // what tables and plots show: the value, or its name
   Place place;                   // in the sweep file
 };

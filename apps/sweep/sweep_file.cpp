@@ -105,10 +105,7 @@ class SweepReader {
     if (const auto* t_end = stop->get("t_end")) set("time.t_end", *t_end);
   }
 
-  void set(const std::string& key, const toml::node& value) {
-    stop_.emplace_back(key, &value);
-    overrides_.push_back(fmt::format("{}={}", key, toml_value(value)));
-  }
+  void set(const std::string& key, const toml::node& value) { stop_.emplace_back(key, &value); }
 
   void read_keep() {
     const auto known = known_observables();
@@ -167,11 +164,12 @@ class SweepReader {
     for (const auto& [key, value] : stop_) keys.insert(key);
     for (std::size_t n = 0; n < axes->size(); ++n) {
       const toml::table& one = *axes->get(n)->as_table();
-      SweepAxis axis = read_axis(one, folder_, sampling, n + 1, problems_);
+      auto [axis, nodes] = read_axis(one, folder_, sampling, n + 1, problems_);
       if (!axis.key.empty() && !keys.insert(axis.key).second)
         problems_.add(one.get("key")->source(),
                       fmt::format("\"{}\" is set twice: by another axis or by [stop]", axis.key));
       plan_.axes.push_back(std::move(axis));
+      nodes_.push_back(std::move(nodes));
     }
     const auto sampled = [](const SweepAxis& axis) { return axis.sampled; };
     if (sampling && problems_.size() == 0 && std::ranges::none_of(plan_.axes, sampled))
@@ -269,20 +267,21 @@ class SweepReader {
                                                  axis->values.size()));
     } else {
       plan_.pairs = SweepPairs{.axis = std::size_t(axis - plan_.axes.begin())};
-      choose_reference(*pair, *axis);
+      choose_reference(*pair, *axis, nodes_[plan_.pairs->axis]);
     }
   }
 
   // Without a word: what is off, or else the first.
-  void choose_reference(const toml::table& pair, const SweepAxis& axis) {
-    std::string reference = axis.values[1].shown == false ? "false" : axis.values[0].toml;
+  void choose_reference(const toml::table& pair, const SweepAxis& axis, const toml::array& nodes) {
+    const std::string first = toml_value(nodes[0]), second = toml_value(nodes[1]);
+    std::string reference = axis.values[1].shown == false ? second : first;
     if (const toml::node* given = pair.get("reference")) {
       reference = toml_value(*given);
-      if (reference != axis.values[0].toml && reference != axis.values[1].toml)
-        problems_.add(given->source(), fmt::format("pair.reference must be {} or {}, not {}",
-                                                   axis.values[0].toml, axis.values[1].toml, shown(*given)));
+      if (reference != first && reference != second)
+        problems_.add(given->source(),
+                      fmt::format("pair.reference must be {} or {}, not {}", first, second, shown(*given)));
     }
-    if (reference == axis.values[1].toml) std::swap(plan_.pairs->reference, plan_.pairs->other);
+    if (reference == second) std::swap(plan_.pairs->reference, plan_.pairs->other);
   }
 
   // ---- runs ---------------------------------------------------------------------------------
@@ -301,10 +300,9 @@ class SweepReader {
     plan_.runs.reserve(count_);
     for (std::size_t n = 0; n < count_ && problems_.size() < most_problems; ++n) {
       SweepRun run{place_of(n), {}, {}};
-      std::vector<std::string> overrides = overrides_;
+      std::vector<TableOverride> overrides = stop_;
       for (std::size_t axis = 0; axis < run.at.size(); ++axis)
-        overrides.push_back(
-            fmt::format("{}={}", plan_.axes[axis].key, plan_.axes[axis].values[run.at[axis]].toml));
+        overrides.push_back({plan_.axes[axis].key, nodes_[axis].get(run.at[axis])});
       Problems problems(base.file.string());
       run.scene = read_tables(base.tables, base.file, overrides, problems);
       run.scene.name = plan_.name;
@@ -349,8 +347,8 @@ class SweepReader {
   Problems problems_;
   toml::table root_;
   SweepPlan plan_;
-  std::vector<std::pair<std::string, const toml::node*>> stop_;
-  std::vector<std::string> overrides_;              // those of [stop]
+  std::vector<TableOverride> stop_;                 // those of [stop]
+  std::vector<toml::array> nodes_;                  // of each axis, what the scene gets
   std::vector<std::vector<std::size_t>> groups_{};  // axes that go on together
   std::size_t count_ = 0;
 };

@@ -72,7 +72,6 @@ TEST(RandomScenes, LeaveTheirFilesAndAStatus) {
   fmt::print("{} runs ended with status 0, {} with 3\n", statuses[0], statuses[3]);
 }
 
-// A key that is new in the schema has to be drawn in tests/support/random_scene.cpp.
 TEST(RandomScenes, DrawEveryKeyOfTheSchema) {
   std::set<std::string> drawn;
   for (std::uint64_t seed = 1; seed <= 500; ++seed)
