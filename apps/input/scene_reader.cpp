@@ -17,24 +17,6 @@ namespace {
 
 using solver::Scene;
 
-// What a value of this kind has to be, in words.
-std::string requirement(const Key& key) {
-  const std::string range = range_text(key.kind);
-  std::string text;
-  if (std::holds_alternative<Number>(key.kind)) {
-    text = range.empty() ? "a finite number" : "a number " + range;
-  } else if (std::holds_alternative<Integer>(key.kind)) {
-    text = range.empty() ? "an integer" : "an integer " + range;
-  } else if (std::holds_alternative<Path>(key.kind)) {
-    text = "a path in quotes";
-  } else if (std::holds_alternative<Size>(key.kind)) {
-    text = fmt::format("an {}, each {}", type_text(key.kind), range);
-  } else {
-    text = type_text(key.kind) + (range.empty() ? "" : ", each " + range);
-  }
-  return key.unit.empty() ? text : fmt::format("{} ({})", text, key.unit);
-}
-
 std::optional<double> number_in(const toml::node& node, const Range& range) {
   if (!node.is_number()) return std::nullopt;
   const double value = *node.value<double>();
@@ -170,7 +152,7 @@ class SceneReader {
         read_value(key, *node, fmt::format("{}.{}", path, key.name), target);
       } else if (key.required) {
         problems_.add(origins_.place(table),
-                      fmt::format("{}.{} is missing: {}", path, key.name, requirement(key)));
+                      fmt::format("{}.{} is missing: {}", path, key.name, requirement_text(key)));
       }
     }
   }
@@ -215,7 +197,7 @@ class SceneReader {
     if (const auto* choice = std::get_if<Choice>(&key.kind); choice != nullptr && text != nullptr) {
       help = hint(did_you_mean(text->get(), choice->names));
     }
-    bad(path, node, requirement(key), help);
+    bad(path, node, requirement_text(key), help);
   }
 
   // Each returns false where the value is not what its kind asks for.

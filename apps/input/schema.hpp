@@ -123,8 +123,9 @@ const std::vector<Section>& schema();
 const Section* find_section(std::string_view name);
 const Key* find_key(const Section&, std::string_view name);
 
-std::string type_text(const Kind&);   // "number", "\"delayed\" | \"printed\"", ...
-std::string range_text(const Kind&);  // empty where the type says it all
+std::string type_text(const Kind&);        // "number", "\"delayed\" | \"printed\"", ...
+std::string range_text(const Kind&);       // empty where the type says it all
+std::string requirement_text(const Key&);  // what a value has to be, with its unit
 std::string default_text(const Key&);
 
 // The scene reference of one section ("" for all) for a terminal, and of all as Markdown tables.

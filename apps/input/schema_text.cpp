@@ -152,4 +152,21 @@ std::string describe_markdown() {
   return text;
 }
 
+std::string requirement_text(const Key& key) {
+  const std::string range = range_text(key.kind);
+  std::string text;
+  if (std::holds_alternative<Number>(key.kind)) {
+    text = range.empty() ? "a finite number" : "a number " + range;
+  } else if (std::holds_alternative<Integer>(key.kind)) {
+    text = range.empty() ? "an integer" : "an integer " + range;
+  } else if (std::holds_alternative<Path>(key.kind)) {
+    text = "a path in quotes";
+  } else if (std::holds_alternative<Size>(key.kind)) {
+    text = fmt::format("an {}, each {}", type_text(key.kind), range);
+  } else {
+    text = type_text(key.kind) + (range.empty() ? "" : ", each " + range);
+  }
+  return key.unit.empty() ? text : fmt::format("{} ({})", text, key.unit);
+}
+
 }  // namespace myowave::apps
