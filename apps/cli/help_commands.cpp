@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -39,7 +40,9 @@ void add_help(CLI::App& app) {
       return;
     }
     // Some commands are topics too.
-    const CLI::App* const subcommand = app.get_subcommand_no_throw(*topic);
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    const auto found = std::ranges::find(commands, *topic, &CLI::App::get_name);
+    const CLI::App* const subcommand = found == commands.end() ? nullptr : *found;
     if (subcommand != nullptr) fmt::print("{}", subcommand->help("myowave"));
     if (is_topic(*topic) || subcommand == nullptr) fmt::print("{}", help_text(*topic));
   });

@@ -27,6 +27,7 @@
 #include "apps/results/run_folder.hpp"
 #include "solver/base/error.hpp"
 #include "solver/run/device_memory.hpp"
+#include "solver/run/make_plan.hpp"
 #include "solver/run/memory_watch.hpp"
 #include "solver/run/run.hpp"
 
