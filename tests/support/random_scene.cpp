@@ -26,7 +26,7 @@ const apps::Key& key_of(std::string_view section, std::string_view name) {
   return *apps::find_key(*apps::find_section(section), name);
 }
 
-std::string quoted(std::string_view text) { return fmt::format("'{}'", text); }
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", text); }
 
 // Keys whose values hang together, or make runs that are longer, larger or less stable than a test can take:
 // they have rules of their own below, or are left out (a start from a file or after minutes of settling).
@@ -66,7 +66,7 @@ class RandomScene {
  private:
   // One of the words that the schema has for the key.
   std::string word(std::string_view section, std::string_view key) {
-    return quoted(draw_.one_of(std::get<apps::Choice>(key_of(section, key).kind).names));
+    return in_quotes(draw_.one_of(std::get<apps::Choice>(key_of(section, key).kind).names));
   }
 
   // ---- any key, from its range alone --------------------------------------------------------------------
@@ -101,7 +101,7 @@ class RandomScene {
               return fmt::format("{:.0f}", std::round(any_number(key, kind.range)));
             },
             [&](const apps::Flag&) -> std::string { return draw_.chance(0.5) ? "true" : "false"; },
-            [&](const apps::Choice& kind) { return quoted(draw_.one_of(kind.names)); },
+            [&](const apps::Choice& kind) { return in_quotes(draw_.one_of(kind.names)); },
             [&](const apps::Choices& kind) { return any_of(kind.names); },
             [&](const auto&) -> std::string {
               throw std::logic_error(
@@ -130,7 +130,7 @@ class RandomScene {
     std::string list;
     for (int n = draw_.integer(0, static_cast<int>(names.size())); n > 0; --n) {
       const std::string_view name = draw_.one_of(names);
-      list += fmt::format("{}, ", quoted(name));
+      list += fmt::format("{}, ", in_quotes(name));
       std::erase(names, name);
     }
     return "[" + list + "]";
@@ -231,7 +231,7 @@ class RandomScene {
 
   void initial() {
     type_ = draw_.chance(0.6) ? "broken_front" : "rest";
-    if (type_ != "rest" || draw_.chance(0.3)) scene_.set("initial", "type", quoted(type_));
+    if (type_ != "rest" || draw_.chance(0.3)) scene_.set("initial", "type", in_quotes(type_));
     if (type_ == "broken_front") {
       maybe("initial", "r0", 1.5, 0, 3);
       if (draw_.chance(0.5)) {
