@@ -32,13 +32,13 @@ struct Header {
   std::int64_t step = 0;
   double t = 0;
   std::uint64_t identity_size = 0, mark_size = 0, state_size = 0;
-  std::uint64_t checksum = 0;  // of all before
+  std::uint64_t checksum = 0;  // of all members above
 };
 static_assert(sizeof(Header) == 80 && offsetof(Header, checksum) == 72, "has no gaps");
 
 std::uint64_t checksum_of(const Header& header) { return XXH3_64bits(&header, offsetof(Header, checksum)); }
 
-// The two names that take turns.
+// The two names alternate.
 fs::path file_of(const fs::path& folder, std::uint64_t serial) {
   return folder / (serial % 2 == 0 ? "checkpoint_even" : "checkpoint_odd");
 }
@@ -50,7 +50,7 @@ fs::path temporary_of(const fs::path& file) { return file.string() + ".tmp"; }
       fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
 }
 
-// A file that is there under its name only when it is whole and on the disk.
+// Writes a file that has its name only once it is complete and on the disk.
 class NewFile {
  public:
   explicit NewFile(fs::path path) : path_(std::move(path)), temporary_(temporary_of(path_)) {
@@ -85,14 +85,14 @@ class NewFile {
   }
 
  private:
-  // Else the name may be lost with the power.
+  // Otherwise a power failure can lose the name.
   void sync_folder() const {
     const int folder = open(path_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) refuse_write(path_, errno);
     const int error = fsync(folder) == 0 ? 0 : errno;
     close(folder);
     if (error != 0 && error != EINVAL)
-      refuse_write(path_, error);  // EINVAL: the file system has no such thing
+      refuse_write(path_, error);  // EINVAL: the file system does not support it
   }
 
   fs::path path_, temporary_;
@@ -113,7 +113,7 @@ std::vector<std::byte> content(const fs::path& path) {
   return bytes;
 }
 
-// What is wrong with it, or what it holds.
+// Returns the content of the file, or what is wrong with it.
 std::variant<std::string, FoundCheckpoint> read_checkpoint(const fs::path& path) {
   if (!fs::is_regular_file(path)) return std::string("it is no file");
   std::vector<std::byte> bytes = content(path);
@@ -184,7 +184,7 @@ std::optional<FoundCheckpoint> find_checkpoint(const fs::path& folder, std::vect
 
 CheckpointKeeper::CheckpointKeeper(fs::path folder, std::string identity, const FoundCheckpoint* last)
     : folder_(std::move(folder)), identity_(std::move(identity)), serial_(last ? last->serial + 1 : 0) {
-  if (!last) remove_all();  // newer by their number than what is to come, they would be taken for it
+  if (!last) remove_all();  // their higher numbers would make them look newer than the next ones
 }
 
 void CheckpointKeeper::keep(const StateWriter& state, std::int64_t step, double t, const std::string& mark) {
@@ -206,7 +206,7 @@ void CheckpointKeeper::keep(const StateWriter& state, std::int64_t step, double 
   XXH3_64bits_reset(checksum.get());
   NewFile file(file_of(folder_, serial_));
   file.write(bytes_of(header));
-  // A piece goes through the cache once: a block is written while its sum is taken.
+  // Writes and sums block by block, so that each passes the cache once.
   constexpr std::size_t block = 1 << 20;
   const auto add = [&](std::span<const std::byte> bytes) {
     for (; !bytes.empty(); bytes = bytes.subspan(std::min(block, bytes.size()))) {
@@ -225,11 +225,11 @@ void CheckpointKeeper::keep(const StateWriter& state, std::int64_t step, double 
 }
 
 void CheckpointKeeper::remove_all() const {
-  std::error_code ignored;  // what is left costs space, nothing else
+  std::error_code ignored;  // leftover files only take space
   for (const std::uint64_t turn : {0, 1}) {
     const fs::path file = file_of(folder_, turn);
     fs::remove(file, ignored);
-    fs::remove(temporary_of(file), ignored);  // of a run that was killed while it wrote
+    fs::remove(temporary_of(file), ignored);  // left by a run that was killed while writing
   }
   fs::remove(folder_, ignored);
 }

@@ -1,4 +1,4 @@
-// Whether a scene fits the memory of the device, asked before anything is allocated there.
+// Checks whether a scene fits the memory of the device, before anything is allocated there.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace myowave::solver {
 
-// Bytes that are free on the device of this process. Empty where the excitation runs in the host's memory, or
-// where the backend does not tell.
+// Free bytes on the device of this process. Empty if the excitation runs in the host's memory, or if the
+// backend does not report them.
 std::optional<std::uint64_t> free_device_memory();
 
 // Errors: InputError that names what the scene's Views need and what is free.

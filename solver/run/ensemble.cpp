@@ -18,8 +18,8 @@ namespace {
 
 int host_threads() { return Kokkos::DefaultHostExecutionSpace().concurrency(); }
 
-// Where OpenMP binds its threads (OMP_PROC_BIND), a thread of the program is on the core of its maker: of the
-// first one, all of them.
+// If OpenMP binds its threads (OMP_PROC_BIND), a new thread of the program is bound to the core of the thread
+// that made it. Without this all workers would share the first core.
 void go_to_place([[maybe_unused]] int worker) {
 #if defined(__linux__) && defined(_OPENMP)
   const int places = omp_get_num_places();
@@ -29,7 +29,7 @@ void go_to_place([[maybe_unused]] int worker) {
   cpu_set_t set;
   CPU_ZERO(&set);
   for (const int core : cores) CPU_SET(core, &set);
-  pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // where that is refused it stays where it is
+  pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // if that fails, the thread stays where it is
 #endif
 }
 

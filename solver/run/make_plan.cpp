@@ -19,13 +19,13 @@ namespace {
 
 using Space = Kokkos::DefaultExecutionSpace;
 
-// A View that the host looks at has a copy there, unless the host reaches it.
+// A View that the host reads has a copy there, unless the host can access it.
 constexpr bool one_memory = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Space::memory_space>::accessible;
 constexpr std::uint64_t copies = one_memory ? 1 : 2;
 
 std::uint64_t count(std::uint64_t rows, std::uint64_t columns) { return rows * columns; }
 
-// The sizes that memory grows with.
+// The sizes that determine the memory.
 struct Sizes {
   std::uint64_t nodes, real, padded_nodes;
   std::uint64_t elements = 0, element_nodes = 0, element_columns = 0, slots = 0, unknowns = 0;
@@ -48,7 +48,7 @@ struct Sizes {
   }
 };
 
-// Steps tile by tile have V, r and Ta old and new; single ones update r and Ta in place.
+// Steps on tiles have old and new V, r and Ta; single steps update r and Ta in place.
 bool steps_in_tiles(MetricForm form) {
   using Forms = ModelForms<Space, double>;
   return form == MetricForm::expanded

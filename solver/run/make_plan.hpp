@@ -1,4 +1,4 @@
-// Makes the plan of a scene, from the same predicates (solver/scene/scene.hpp) that the run decides by.
+// Makes the plan of a scene, from the same predicates (solver/scene/scene.hpp) that the run uses.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace myowave::solver {
 
-// 64-bit arithmetic, nothing is allocated: sheets beyond any memory have a plan too.
+// Uses 64-bit arithmetic and allocates nothing, so that sheets larger than any memory have a plan too.
 Plan make_plan(const Scene&);
 inline std::uint64_t memory_bytes(const Scene& scene) { return make_plan(scene).bytes(); }
 
-// Views by memory space: the space of the excitation first, then the host's where it is another.
+// Views by memory space: first the space of the excitation, then the host's if that is another.
 // solver/run/memory_watch.hpp measures the same.
 std::vector<SpaceBytes> views_of(const Plan&);
 

@@ -16,12 +16,12 @@ struct Account {
   struct Bytes {
     std::uint64_t now = 0, most = 0;
   };
-  Kokkos::Tools::Experimental::EventSet tool;  // whose callbacks these are without the watch
+  Kokkos::Tools::Experimental::EventSet tool;  // the callbacks that are set without the watch
   std::map<std::string, Bytes> spaces;
   std::unordered_map<const void*, std::uint64_t> sizes;
 };
 
-// Kokkos' callbacks are plain functions.
+// Global, because Kokkos' callbacks are plain functions.
 std::mutex account_mutex;
 std::optional<Account> account;
 
@@ -39,7 +39,7 @@ void remove(Kokkos::Tools::SpaceHandle space, const char* label, const void* dat
   const std::lock_guard lock(account_mutex);
   if (account->tool.deallocate_data != nullptr) account->tool.deallocate_data(space, label, data, size);
   const auto found = account->sizes.find(data);
-  if (found == account->sizes.end()) return;  // older than the watch, or not the project's
+  if (found == account->sizes.end()) return;  // allocated before the watch, or not by the project
   account->spaces[space.name].now -= found->second;
   account->sizes.erase(found);
 }

@@ -1,4 +1,4 @@
-// How much memory a run takes, by Kokkos' own account of what it allocates.
+// Measures the memory of a run from the allocations that Kokkos reports.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace myowave::solver {
 
-// Follows the Views of the project (labels `myowave::...`), not what Kokkos keeps for itself. Counts those of
-// the whole program, so that it tells of a run only where one run goes on at a time. A Kokkos tool that is
-// loaded goes on to hear of everything. One watch at a time.
+// Counts the Views of the project (labels `myowave::...`), not those of Kokkos itself. It counts those of the
+// whole program, so it describes a run only while one run is in progress. A loaded Kokkos tool still receives
+// all events. One watch at a time.
 class MemoryWatch {
  public:
   MemoryWatch();
@@ -17,7 +17,7 @@ class MemoryWatch {
   MemoryWatch(const MemoryWatch&) = delete;
   MemoryWatch& operator=(const MemoryWatch&) = delete;
 
-  // The most bytes at once in each memory space that was used since the watch began.
+  // The most bytes at once in each memory space that was used since the watch started.
   std::vector<SpaceBytes> most() const;
 };
 

@@ -1,4 +1,4 @@
-// The observers of a run: they look, the model does not see them.
+// The observers of a run. They only read; results do not depend on them.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +19,25 @@ class Observers {
   // Keeps a reference to the scene.
   explicit Observers(const Scene&);
 
-  // Tips at t, in time order; gives them their trajectory, from the time on that the data have settled.
+  // Tips at t, in time order. Assigns them to trajectories, from the time on when the initial data have
+  // settled.
   void link(double t, std::span<Tip> tips);
-  // Those that have ended since the last call.
+  // Trajectories that ended since the last call.
   std::vector<TipTrajectory> take_ended() { return trajectories_.take_ended(); }
 
   void add_tips(std::size_t count) { tip_counts_.push_back(static_cast<double>(count)); }
   void watch(double t, int count, double largest_V, bool more_stimuli) {
     breakup_.add_sample(t, count, largest_V, more_stimuli);
   }
-  // What the scene wants to end on has come.
+  // True once an event that the scene stops on has occurred.
   bool wants_end() const;
 
   // V at the probes from step `first` on, all probes of a step together.
   void add_probe_history(std::int64_t first, std::span<const double> history);
 
-  // Beats that are complete since the last call.
+  // Beats completed since the last call.
   std::vector<ProbeBeat> take_beats() { return beats_.take(); }
-  // No more looks are to come.
+  // Call after the last sample.
   void finish() {
     trajectories_.finish();
     beats_.finish();
@@ -49,7 +50,7 @@ class Observers {
     archive(beats_, breakup_, trajectories_, tip_counts_, areas_);
   }
 
-  // stimulus_period: 0 where there is no periodic stimulus.
+  // stimulus_period: 0 if there is no periodic stimulus.
   void write(Observables&, double t, double stimulus_period) const;
 
  private:
@@ -59,7 +60,7 @@ class Observers {
   BreakupWatch breakup_;
   TipTrajectories trajectories_;
   std::vector<double> tip_counts_;
-  std::vector<AreaSample> areas_;  // one a solve
+  std::vector<AreaSample> areas_;  // one per solve
 };
 
 }  // namespace myowave::solver

@@ -21,7 +21,7 @@ void require_runnable(const Scene& scene, const InitialState& state) {
   require_device_memory(scene);
 }
 
-// What a run goes on from, and in which stage. Keeps a reference to the checkpoint.
+// The saved state that a run resumes from, and its stage. Holds a reference to the checkpoint.
 struct Saved {
   StateReader reader;
   std::size_t stage = 0;
@@ -36,7 +36,7 @@ std::optional<Saved> saved_of(const RunControl& control, const Scene& scene) {
   return control.resume ? std::optional<Saved>(std::in_place, *control.resume, scene) : std::nullopt;
 }
 
-// In place of an initial state that a saved one is put over.
+// Takes the place of an initial state that a saved one overwrites.
 InitialState blank_state(const Scene& scene) {
   const std::vector<double> zero(static_cast<std::size_t>(scene.grid.rows) * scene.grid.columns);
   return {scene.grid.rows, scene.grid.columns, zero, zero, zero};
@@ -74,15 +74,15 @@ InitialState run_preconditioned(const Scene& scene, InitialState state, OutputSi
   const std::size_t preconditions = scene.initial.preconditions.size();
   const RunStage stage{RunStage::Kind::scene, preconditions, preconditions};
   auto saved = saved_of(control, scene);
-  const bool goes_on = saved && saved->stage == stage.number;
-  if (goes_on) state = blank_state(scene);
+  const bool resumes = saved && saved->stage == stage.number;
+  if (resumes) state = blank_state(scene);
   require_runnable(scene, state);
   const FlushDenormals flush(control.execution.host);
   summary.plan = make_plan(scene);
-  if (!goes_on)
+  if (!resumes)
     for (const auto& text : warnings_of(scene)) warn(sink, summary, text);
   return run_stage({scene, control, sink, summary, summary, stage}, std::move(state),
-                   goes_on ? &saved->reader : nullptr);
+                   resumes ? &saved->reader : nullptr);
 }
 
 }  // namespace myowave::solver

@@ -1,4 +1,4 @@
-// The whole run: order of a step, sampling, watchers, summary. The order of a step: solver/MODEL.md.
+// A whole run: its preconditions, then the scene.
 #pragma once
 
 #include "solver/base/run_output.hpp"
@@ -7,17 +7,16 @@
 
 namespace myowave::solver {
 
-// Runs the preconditions and then the scene. `summary` is kept current, so that it tells how far
-// the run came when an error leaves this function.
-// Returns the final state.
-// Errors: InputError (require_stable_step, require_clean_start, sizes that do not fit), NumericalFailure,
-// Interrupted, StateMismatch where the checkpoint is none of this scene and program, std::runtime_error where
-// the run is to stop and its checkpoint cannot be written.
+// Runs the preconditions and then the scene. `summary` is kept current, so that it shows how far the run got
+// if this function throws. Returns the final state. Errors: InputError (require_stable_step,
+// require_clean_start, wrong sizes), NumericalFailure, Interrupted, StateMismatch if the checkpoint is of
+// another scene or program version, std::runtime_error if the run was asked to stop and its checkpoint cannot
+// be written.
 InitialState run(const Scene&, InitialState, OutputSink&, RunSummary& summary, const RunControl& = {});
 
-// The two parts of it, for scenes that have their preconditions in common: run_preconditioned() from the
-// state that run_preconditions() left gives the bits of run(). Of the summary, the first fills
-// precondition_s, the steps in parts and their warnings.
+// The two parts of run(), for scenes that share their preconditions: run_preconditioned() from the state that
+// run_preconditions() returned is bitwise identical to run(). Of the summary, run_preconditions() fills
+// precondition_s, the substeps and the warnings about them.
 InitialState run_preconditions(const Scene&, InitialState, OutputSink&, RunSummary& summary,
                                const RunControl& = {});
 InitialState run_preconditioned(const Scene&, InitialState, OutputSink&, RunSummary& summary,

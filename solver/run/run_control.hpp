@@ -8,13 +8,13 @@
 
 namespace myowave::solver {
 
-// How a run is run. What it computes does not depend on it.
+// How to execute a run. Its results do not depend on it.
 struct RunControl {
   Execution execution{};
-  const std::atomic<bool>* stop = nullptr;  // true: the run ends at its next look, by Interrupted
-  // Where checkpoints go, at output.checkpoint_every and when the run is asked to stop.
+  const std::atomic<bool>* stop = nullptr;  // true: the run throws Interrupted at its next sample
+  // Saves checkpoints, at output.checkpoint_every and when the run is asked to stop.
   CheckpointKeeper* checkpoints = nullptr;
-  // What the run goes on from, of the same scene; the initial state is not looked at then.
+  // A checkpoint of the same scene to resume from; the initial state is then ignored.
   const FoundCheckpoint* resume = nullptr;
 };
 

@@ -7,11 +7,11 @@
 
 namespace myowave::solver {
 
-// Steps between two of a kind, all at least 1, but for mechanics: 0 in a rigid sheet. All but mechanics are
-// due at the last step too.
+// Steps between two fields, two samples of tips, and so on; at least 1, but mechanics is 0 in a rigid sheet.
+// All except mechanics are due at the last step too.
 struct Schedule {
   std::int64_t last, fields, tips, probes, watch, maps, mechanics, check;
-  double fields_from;  // in steps: it may be beyond what any run takes
+  double fields_from;  // in steps; a double, because it can exceed the range of integers
 
   static constexpr std::int64_t check_without_mechanics = 100;  // steps between checks for non-finite values
 

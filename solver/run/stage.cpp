@@ -24,7 +24,7 @@ double seconds_since(Clock::time_point start) {
 constexpr const char* what_to_do =
     "Use a smaller time.dt, or look at the stimulus amplitude and at excitation.k and mu2";
 
-// One stage: the scene itself, or a precondition of it (unobserved).
+// A precondition is not observed.
 template <class Real>
 class Stage {
  public:
@@ -38,13 +38,13 @@ class Stage {
         schedule_(context.scene),
         observers_(context.scene) {}
 
-  // From the initial state, or from where the reader's state was saved.
+  // Starts from the initial state, or from the saved one.
   InitialState run(InitialState initial, StateReader* saved) {
     start_ = Clock::now();
     Sheet sheet(control_.execution, scene_, initial, summary_.phases, summary_.mechanics);
     initial = {};  // the sheet has its own
     if (saved) load(sheet, *saved);
-    kept_ = step_;
+    saved_step_ = step_;
     try {
       if (!saved) {
         require_valid(sheet.check_state(0, 0));
@@ -62,7 +62,7 @@ class Stage {
  private:
   using Sheet = Electromechanics<Kokkos::DefaultExecutionSpace, Real>;
 
-  // But for the sheet.
+  // Everything except the sheet.
   template <class Archive>
   void state(Archive& archive) {
     archive(step_, schedule_.last, substeps_, substepped_steps_, largest_substeps_, last_problem_,
@@ -73,7 +73,7 @@ class Stage {
 
   void advance(Sheet& sheet) {
     while (step_ != schedule_.last) {
-      keep_if_due(sheet);
+      save_if_due(sheet);
       const std::int64_t first = step_;
       step_to(sheet, schedule_.next(step_));
       if (observed()) observe([&] { observers_.add_probe_history(first, sheet.probe_history()); });
@@ -94,17 +94,17 @@ class Stage {
     report_progress();
   }
 
-  void keep_if_due(Sheet& sheet) {
+  void save_if_due(Sheet& sheet) {
     const bool stop = control_.stop && *control_.stop;
     const double every = scene_.output.checkpoint_every;
-    const bool due = every > 0 && static_cast<double>(step_ - kept_) * scene_.time.dt >= every - 1e-9;
-    if (control_.checkpoints && (stop || due)) keep(sheet, stop);
+    const bool due = every > 0 && static_cast<double>(step_ - saved_step_) * scene_.time.dt >= every - 1e-9;
+    if (control_.checkpoints && (stop || due)) save(sheet, stop);
     if (stop) throw Interrupted(fmt::format("{}: stopped at t = {:.6g} t.u.", stage_text(stage_), t()));
   }
 
-  // A run that goes on loses nothing by a checkpoint that cannot be written: the one before is still there,
-  // and the next may find room again.
-  void keep(Sheet& sheet, bool stop) {
+  // If a checkpoint cannot be written, the run continues: the previous one is still there, and the disk may
+  // have room for the next.
+  void save(Sheet& sheet, bool stop) {
     StateWriter writer;
     writer(stage_.number, seconds_since(start_) + wall_before_);
     state(writer);
@@ -117,7 +117,7 @@ class Stage {
         warn(sink_, whole_, fmt::format("t = {:.6g} t.u.: no checkpoint: {}", t(), error.what()));
       }
     });
-    kept_ = step_;
+    saved_step_ = step_;
   }
 
   void load(Sheet& sheet, StateReader& saved) {
@@ -134,8 +134,8 @@ class Stage {
     if (schedule_.due(step_, schedule_.check)) require_valid(sheet.check_state(t(), scene_.time.dt));
   }
 
-  // In parts where dt is past the bound of the metric. Where the state is invalid then, once more from the
-  // same start in twice as many; the next stretches try with fewer again.
+  // Takes substeps if dt exceeds the bound of the metric. If the state is invalid then, repeats the steps
+  // from their start with twice as many substeps. The next steps try half as many.
   void substep_to(Sheet& sheet, std::int64_t next) {
     const double dt = scene_.time.dt;
     sheet.keep();
@@ -224,7 +224,7 @@ class Stage {
       if (watched) observers_.watch(t(), tips_, activity.largest_V, sheet.more_stimuli(t()));
     });
     if (watched && observers_.wants_end() && step_ != schedule_.last) {
-      require_valid(sheet.check_state(t(), scene_.time.dt));  // as at any end
+      require_valid(sheet.check_state(t(), scene_.time.dt));  // as at every end
       schedule_.last = step_;
     }
     show_ended_trajectories();
@@ -276,7 +276,7 @@ class Stage {
         {t(), scene_.time.t_end, stage_, cell_steps_per_s(), summary_.mechanics.newton_iterations, tips_});
   }
 
-  // The summary first: it is to be told also where an output fails.
+  // The summary first, so that it is complete even if an output fails.
   void end(const Sheet& sheet) {
     observe([&] { observers_.finish(); });
     update_summary(sheet);
@@ -317,14 +317,14 @@ class Stage {
   Schedule schedule_;
   Observers observers_;
   std::int64_t step_ = 0;
-  int substeps_ = 1;  // of the last stretch
+  int substeps_ = 1;  // at the last call of substep_to()
   std::int64_t substepped_steps_ = 0;
   int largest_substeps_ = 1;
   std::string last_problem_;
   bool warned_of_tension_ = false, warned_of_ellipticity_ = false;
   int tips_ = 0;
-  std::int64_t kept_ = 0;   // step of the last checkpoint
-  double wall_before_ = 0;  // s, of the parts before this one
+  std::int64_t saved_step_ = 0;  // step of the last checkpoint
+  double wall_before_ = 0;       // s, before the run was resumed
   Clock::time_point start_, last_report_;
 };
 

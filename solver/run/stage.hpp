@@ -16,7 +16,7 @@ struct StageContext {
   const RunControl& control;
   OutputSink& sink;
   RunSummary& summary;  // of the stage
-  RunSummary& whole;    // of the run that the stage is a part of: takes its warnings and substeps
+  RunSummary& whole;    // of the whole run: gets the warnings and substeps of the stage
   RunStage stage;
 };
 

@@ -7,14 +7,13 @@
 
 namespace myowave::solver {
 
-// The scenes that a run goes through: its preconditions, then itself. Each goes on from the state of the
-// one before.
-// Errors: InputError where a precondition contracts a rigid sheet.
+// The scenes that a run goes through: its preconditions, then itself. Each starts from the final state of the
+// previous one.
+// Errors: InputError if a precondition contracts a rigid sheet.
 std::vector<Scene> stages_of(const Scene&);
 
-// Refuses what is certainly unstable in the scene or a precondition, whatever on_unstable says: dt past the
-// bound of the undeformed sheet is a wrong input.
-// Errors: InputError with the bound.
+// Refuses a scene or precondition that is certainly unstable, whatever on_unstable is: dt above the bound of
+// the undeformed sheet is an input error. Errors: InputError with the bound.
 void require_stable_step(const Scene&);
 
 }  // namespace myowave::solver
