@@ -115,36 +115,36 @@ std::vector<std::byte> content(const fs::path& path) {
 
 // Returns the content of the file, or what is wrong with it.
 std::variant<std::string, FoundCheckpoint> read_checkpoint(const fs::path& path) {
-  if (!fs::is_regular_file(path)) return std::string("it is no file");
+  if (!fs::is_regular_file(path)) return std::string("it is not a file");
   std::vector<std::byte> bytes = content(path);
   Header header;
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
     return bytes.size() < sizeof header && !bytes.empty() &&
                    std::memcmp(bytes.data(), magic.data(), std::min(bytes.size(), magic.size())) == 0
-               ? fmt::format("it is cut off after {} bytes", bytes.size())
-               : std::string("it is no checkpoint of myowave");
+               ? fmt::format("it is truncated after {} bytes", bytes.size())
+               : std::string("it is not a checkpoint of myowave");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.version > format_version)
     return fmt::format(
-        "its format, {}, is newer than this program's, {}: go on with the program that wrote it",
+        "its format, {}, is newer than this program's, {}: resume with the program that wrote it",
         header.version, format_version);
   if (header.byte_order != Header{}.byte_order)
     return std::string("it is from a machine of another byte order");
   if (header.checksum != checksum_of(header)) return std::string("its header is damaged");
   if (header.version < format_version)
     return fmt::format(
-        "its format, {}, is older than this program's, {}: go on with the program that wrote it",
+        "its format, {}, is older than this program's, {}: resume with the program that wrote it",
         header.version, format_version);
   const std::array sizes{header.identity_size, header.mark_size, header.state_size};
   std::uint64_t body = 0;
   for (const auto size : sizes) {
-    if (size > bytes.size()) return fmt::format("it is cut off after {} bytes", bytes.size());
+    if (size > bytes.size()) return fmt::format("it is truncated after {} bytes", bytes.size());
     body += size;
   }
   const std::uint64_t whole = sizeof header + body + sizeof header.checksum;
   if (bytes.size() < whole)
-    return fmt::format("it is cut off: {} of {} bytes are there", bytes.size(), whole);
-  if (bytes.size() > whole) return fmt::format("{} bytes stand after its end", bytes.size() - whole);
+    return fmt::format("it is truncated: it has {} of {} bytes", bytes.size(), whole);
+  if (bytes.size() > whole) return fmt::format("it has {} extra bytes at its end", bytes.size() - whole);
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + sizeof header + body, sizeof checksum);
   if (checksum != XXH3_64bits(bytes.data() + sizeof header, body))

@@ -185,7 +185,7 @@ PlannedPart substeps(const Scene& scene, const Sizes& sizes) {
             .why = "accuracy.on_unstable = \"stop\": a step that is unstable ends the run"};
   return {.part = "substeps",
           .active = true,
-          .what = "a stretch of steps that was unstable again in parts, from the state kept at its begin",
+          .what = "unstable steps are repeated in substeps, from the state saved before them",
           .why = "accuracy.on_unstable = \"substep\"",
           .device_bytes = sizes.nodes * (has_tension(scene) ? 3 : 2) * sizes.real};
 }
@@ -194,7 +194,7 @@ PlannedPart tips(const Scene& scene) {
   constexpr std::uint64_t list = first_tips * sizeof(observe::PhaseSingularity) + sizeof(int);
   return {.part = "tips",
           .active = true,
-          .what = fmt::format("looked for every {} t.u. for break-up and death, shown every {} t.u.",
+          .what = fmt::format("sampled every {} t.u. for break-up and death, output every {} t.u.",
                               scene.output.watch_every, scene.output.tips_every),
           .why = "always",
           .device_bytes = list,
@@ -220,7 +220,7 @@ PlannedPart maps(const Scene& scene, const Sizes& sizes) {
   if (!scene.output.maps) return {.part = "maps", .why = "output.maps = false"};
   return {.part = "maps",
           .active = true,
-          .what = fmt::format("activation, period and APD of each node, V looked at every {} t.u.",
+          .what = fmt::format("activation, period and APD of each node, V sampled every {} t.u.",
                               ActivationMaps::sample_every),
           .why = "output.maps = true",
           .device_bytes = sizes.nodes * (sizeof(float) + sizeof(observe::ActivationRecord)),
@@ -239,7 +239,7 @@ std::vector<PlannedPart> outputs(const Scene& scene, const Sizes& sizes) {
                   scene.output.from > 0 ? fmt::format(" from {} t.u. on", scene.output.from) : "");
   const char* each = scene.output.element_areas ? " and each of them" : "";
   return {
-      output("areas", scene.mechanics.has_value(), fmt::format("of the elements{}, shown {}", each, every),
+      output("areas", scene.mechanics.has_value(), fmt::format("of the elements{}, output {}", each, every),
              scene.mechanics ? "[mechanics]" : "the sheet is rigid"),
       output("fields", scene.output.fields,
              fmt::format("V, r{}{} {}", has_tension(scene) ? ", Ta" : "", scene.mechanics ? ", nodes" : "",
@@ -249,7 +249,7 @@ std::vector<PlannedPart> outputs(const Scene& scene, const Sizes& sizes) {
              fmt::format("output.frames = {}", scene.output.frames)),
       {.part = "state on the host",
        .active = true,
-       .what = "V, r and Ta in float64, as they come, are shown and go",
+       .what = "V, r and Ta in float64, at the start, for output and at the end",
        .why = "always",
        .host_bytes = (copies - 1) * sizes.nodes * sizes.real,  // one of them at a time
        .other_bytes = 3 * sizeof(double) * sizes.nodes}};

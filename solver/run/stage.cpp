@@ -22,7 +22,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 constexpr const char* what_to_do =
-    "Use a smaller time.dt, or look at the stimulus amplitude and at excitation.k and mu2";
+    "Use a smaller time.dt, or check the stimulus amplitude, excitation.k and mu2";
 
 // A precondition is not observed.
 template <class Real>
@@ -142,12 +142,12 @@ class Stage {
     int parts = std::max(needed_substeps(dt, sheet.stable_dt()), substeps_ / 2);
     for (;; parts *= 2) {
       if (parts > most_substeps)
-        throw NumericalFailure(
-            fmt::format("t = {:.6g} t.u.: no clean step was found in up to {} parts of dt = {}; the bound of "
-                        "the metric is "
-                        "{:.3g}{}. {}",
-                        t(), most_substeps, dt, sheet.stable_dt(),
-                        last_problem_.empty() ? "" : "; at last " + last_problem_, what_to_do));
+        throw NumericalFailure(fmt::format(
+            "t = {:.6g} t.u.: no valid state was found with up to {} substeps of dt = {}; the bound of "
+            "the metric is "
+            "{:.3g}{}. {}",
+            t(), most_substeps, dt, sheet.stable_dt(),
+            last_problem_.empty() ? "" : "; the last problem: " + last_problem_, what_to_do));
       sheet.advance(step_, next - step_, parts);
       const auto problem = sheet.check_state(static_cast<double>(next) * dt, dt / parts);
       if (!problem) break;
@@ -185,10 +185,9 @@ class Stage {
     if (warned_of_ellipticity_ || summary_.mechanics.not_elliptic == 0) return;
     warned_of_ellipticity_ = true;
     warn(sink_, whole_,
-         fmt::format(
-             "t = {:.6g} t.u.: a part of the sheet has lost ellipticity: how it folds there depends on "
-             "the mesh",
-             t()));
+         fmt::format("t = {:.6g} t.u.: a part of the sheet has lost ellipticity: its folds there depend on "
+                     "the mesh",
+                     t()));
   }
 
   void sample(Sheet& sheet) {
@@ -295,7 +294,7 @@ class Stage {
     whole_.substepped_steps += substepped_steps_;
     whole_.largest_substeps = std::max<std::int64_t>(whole_.largest_substeps, largest_substeps_);
     warn(sink_, whole_,
-         fmt::format("{}: {} of {} steps were taken in parts, at most {}, because dt = {} was unstable",
+         fmt::format("{}: {} of {} steps were divided into up to {} substeps, because dt = {} was unstable",
                      stage_text(stage_), substepped_steps_, step_, largest_substeps_, scene_.time.dt));
   }
 

@@ -294,7 +294,7 @@ TEST_F(ResumedCommand, UsesThePreviousOneIfTheNewestIsDamaged) {
   fs::resize_file(newest, fs::file_size(newest) - 1000);
   Process rest = go_on();
   EXPECT_EQ(rest.wait(), 0);
-  EXPECT_THAT(rest.errors(), HasSubstr("not used: " + newest.string() + ": it is cut off"));
+  EXPECT_THAT(rest.errors(), HasSubstr("not used: " + newest.string() + ": it is truncated"));
   expect_same(results(out), expected);
 }
 

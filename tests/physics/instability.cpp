@@ -206,7 +206,7 @@ TEST(Instability, SubstepsHealIt) {
   EXPECT_GT(healed.summary.substepped_steps, 0);
   EXPECT_LT(healed.summary.substepped_steps, healed.summary.steps) << "whole steps again after the pulse";
   EXPECT_EQ(healed.summary.steps, 200);
-  EXPECT_THAT(healed.summary.warnings, ElementsAre(HasSubstr("steps were taken in parts")));
+  EXPECT_THAT(healed.summary.warnings, ElementsAre(HasSubstr("steps were divided into")));
   EXPECT_EQ(healed.summary.largest_substeps, 2);
   const Outcome fine = run(strong_current(0.02));
   EXPECT_EQ(fine.failure, "");
@@ -269,7 +269,7 @@ TEST(Instability, InstabilityOfTheEquationsEndsTheRun) {
   EXPECT_THAT(run(scene, state).failure, HasSubstr("r is outside of -0.15 to inf"));
   scene.on_unstable = OnUnstable::substep;
   const Outcome outcome = run(scene, state);
-  EXPECT_THAT(outcome.failure, AllOf(HasSubstr("no clean step was found in up to 64 parts"),
+  EXPECT_THAT(outcome.failure, AllOf(HasSubstr("no valid state was found with up to 64 substeps"),
                                      HasSubstr("r is outside of -0.15 to inf")));
   EXPECT_GT(outcome.summary.steps, 50) << "it does not start there";
 }

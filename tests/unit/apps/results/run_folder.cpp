@@ -253,7 +253,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
   summary.mechanics.solves = 3;
   summary.substepped_steps = 40;
   summary.largest_substeps = 2;
-  summary.warnings = {"steps were taken in parts"};
+  summary.warnings = {"steps were divided into substeps"};
   summary.observables.period = {26.5, 0.25, 7};
   summary.observables.apd90 = {20.5, 0.5, 8};
   summary.observables.tips = {{1.5, 0.5, 100}, 7.5, 25, 0.1};
@@ -314,7 +314,7 @@ TEST(Summary, HasTheKeysOfTheContract) {
   EXPECT_EQ(json["observables"]["area"], (nlohmann::ordered_json{{"min", 0.8}, {"max", 1.1}}));
   EXPECT_EQ(json["observables"]["shortening"], (nlohmann::ordered_json{{"max", 0.25}, {"t", 33}}));
   EXPECT_TRUE(json["failure"].is_null());
-  EXPECT_EQ(json["warnings"], (nlohmann::ordered_json::array({"steps were taken in parts"})));
+  EXPECT_EQ(json["warnings"], (nlohmann::ordered_json::array({"steps were divided into substeps"})));
   EXPECT_EQ(json["substeps"], (nlohmann::ordered_json{{"steps", 40}, {"largest", 2}}));
 }
 

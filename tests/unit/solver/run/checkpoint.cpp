@@ -188,10 +188,10 @@ TEST_F(Checkpoint, EveryTruncationIsFound) {
   for (std::size_t length = 0; length < sound.size(); ++length) {
     write(file, sound.substr(0, length));
     SCOPED_TRACE(length);
-    expect_refused(file, length == 0 ? "no checkpoint" : "cut off");
+    expect_refused(file, length == 0 ? "not a checkpoint" : "truncated");
   }
   write(file, sound + "x");
-  expect_refused(file, "1 bytes stand after its end");
+  expect_refused(file, "it has 1 extra bytes at its end");
 }
 
 TEST_F(Checkpoint, OtherFilesAreReported) {
@@ -199,7 +199,7 @@ TEST_F(Checkpoint, OtherFilesAreReported) {
   const auto file = newest();
   const std::string sound = test::read_text(file);
   write(file, "\x89HDF\r\n\x1a\n" + std::string(1000, 'x'));
-  expect_refused(file, "no checkpoint of myowave");
+  expect_refused(file, "not a checkpoint of myowave");
   std::string newer = sound;
   newer[16] = 9;
   write(file, newer);
