@@ -11,11 +11,11 @@ class BreakupWatch {
   static constexpr double settling_time = 5.0;  // t.u., for raw initial data
   static constexpr double quiet_below = 0.05;   // V
 
-  // from: the count is taken there and watched from there on (0, or settling_time where the initial
-  // data are a step, which is full of false singularities).
+  // from: the number of tips then is the reference for later ones. 0, or settling_time if the initial data
+  // are a step, which has many false singularities.
   explicit BreakupWatch(double from) : from_(from) {}
 
-  // In time order. `more_stimuli`: a stimulus is on or to come.
+  // In time order. `more_stimuli`: a stimulus is on or will be.
   void add_sample(double t, int tips, double largest_V, bool more_stimuli);
 
   std::optional<double> breakup() const { return breakup_; }

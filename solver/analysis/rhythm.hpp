@@ -18,7 +18,7 @@ class BeatDetector {
  public:
   // V at time t (t.u.). Returns the beat that an upstroke ends: the one before it.
   std::optional<Beat> add(double t, double V);
-  // The beat that no upstroke has ended: its period and diastolic interval are not known.
+  // The last beat, without a next upstroke: its period and diastolic interval are unknown.
   const std::optional<Beat>& last() const { return beat_; }
 
  private:
@@ -27,7 +27,7 @@ class BeatDetector {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double t_ = 0, V_ = 0;
   bool seen_ = false, armed_ = false;
-  double rise_ = unknown;  // through apd_level, of an upstroke to come
+  double rise_ = unknown;  // time of crossing apd_level, for the next upstroke
   double lowest_ = 0;      // V since the last upstroke
   std::optional<Beat> beat_;
   double beat_rise_ = unknown, beat_rest_ = 0, beat_peak_ = 0;
@@ -40,9 +40,9 @@ class BeatRecorder {
 
   // V of all probes at time t (t.u.), every step in time order.
   void add(double t, std::span<const double> V);
-  // Once, after the last step: the last beats, whose periods are not known.
+  // Call once, after the last step: adds the last beats, whose periods are unknown.
   void finish();
-  // Those that the upstroke after them, or finish(), has completed since the last call.
+  // Beats that were completed, by the next upstroke or finish(), since the last call.
   std::vector<ProbeBeat> take() { return std::exchange(complete_, {}); }
 
   template <class Archive>

@@ -30,7 +30,7 @@ MeanSd mean_sd(std::span<const double>);
 
 // tau = 1 + 2 (rho(1) + ... + rho(M)) of the sample autocorrelation rho, with the self-consistent window of
 // Sokal (Monte Carlo methods in statistical mechanics, 1997, section 3): M is the smallest that is at least
-// 5 tau(M). Too small where the series is shorter than some 50 tau. None where all samples are equal.
+// 5 tau(M). Too small if the series is shorter than some 50 tau. None if all samples are equal.
 std::optional<double> integrated_correlation(std::span<const double> series);
 
 SeriesStatistics series_statistics(std::span<const double> series);
@@ -43,11 +43,11 @@ struct TTest {
 };
 
 // Student's unpaired test: independent samples of one variance, pooled. None for fewer than three samples
-// together or where neither varies.
+// together or if neither varies.
 std::optional<TTest> student_t_test(const MeanSd&, const MeanSd&);
 
-// Welch's: variances may differ (Welch-Satterthwaite degrees of freedom). Of correlated series the effective
-// sizes count. None where one is not above 1, or where neither varies.
+// Welch's: variances may differ (Welch-Satterthwaite degrees of freedom). For correlated series pass the
+// effective sizes. None if one is not above 1, or if neither varies.
 std::optional<TTest> welch_t_test(const SeriesStatistics&, const SeriesStatistics&);
 
 // I_x(a, b) for a, b > 0 and 0 <= x <= 1, to about 1e-14: continued fraction (DLMF 8.17.22) by the modified

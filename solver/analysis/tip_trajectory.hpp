@@ -1,5 +1,5 @@
-// Paths of phase singularities: those of successive looks are linked, and of each path are told its birth and
-// end, its core and how that drifts.
+// Trajectories of phase singularities: links the tips of successive samples and measures birth, end, core and
+// drift of each trajectory.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace myowave::solver {
 
-// Turns of one tip. Keeps the points of the rotation that goes on.
+// Rotations of one tip. Stores the points of the current rotation.
 class RotationMeter {
  public:
   // step: the direction is that of straight lines at least so long, which the uncertainty of a tip's place, a
@@ -42,8 +42,8 @@ class RotationMeter {
   static constexpr double full_turn = 2 * std::numbers::pi;
 
   double step_;
-  std::vector<Point> points_;    // since the begin of this rotation
-  std::optional<Point> corner_;  // begin of the next line
+  std::vector<Point> points_;    // since the start of this rotation
+  std::optional<Point> corner_;  // start of the next line
   // Of the last line; its time is that of its middle.
   std::optional<double> heading_;
   double heading_time_ = 0, turned_ = 0;
@@ -54,33 +54,33 @@ class RotationMeter {
   double sum_t_ = 0, sum_tt_ = 0, sum_x_ = 0, sum_y_ = 0, sum_tx_ = 0, sum_ty_ = 0;
 };
 
-// How far a tip may have moved in so many t.u.: twice as far as the fastest front, a (the threshold) = 0 in
+// How far a tip can have moved in a time (t.u.): twice as far as the fastest front, a (the threshold) = 0 in
 // sqrt(k D / 2) (1 - 2 a) / C_m, and 2.5 front widths sqrt(8 D / k) or four nodes beside, over which a
 // singularity slides at once when a front meets a back. Of 19000 links 0.2 t.u. apart in turbulence, rigid
 // and contracting, the longest is 2.4 at dx = 0.6, where this is 3.3.
 double gating_distance(const Scene&, double interval);
 
-// Links tips of the same charge, nearest first, which is the same in any order of the tips. What is left is a
-// pair where two of opposite charge are within twice the gating distance, at the boundary where that is
-// within one, else alone; nearest first too. No look without a tip is bridged, because none is needed: of the
-// 152 trajectories of the two runs above none ended alone, and 3 were born so, where V = 0.5 and dV/dt = 0
-// touched along a line.
+// Links tips of the same charge, nearest first, so that the order of the tips does not matter. Births and
+// ends of the others are, nearest first too: a pair, if two of opposite charge are within twice the gating
+// distance; at the boundary, if that is within the gating distance; else alone. A sample without the tip is
+// not bridged, because this is not needed: of the 152 trajectories of the two runs above none ended alone,
+// and 3 were born alone, where V = 0.5 and dV/dt = 0 touched along a line.
 class TipTrajectories {
  public:
   static constexpr int boundary_nodes = 10;
 
-  // Keeps a reference to the scene.
+  // Holds a reference to the scene.
   explicit TipTrajectories(const Scene&);
 
-  // Tips at t, in time order; gives them their trajectory.
+  // Tips at t, in time order. Assigns them to trajectories.
   void add_sample(double t, std::span<Tip> tips);
-  // The run is over: all that are left end here.
+  // Call after the last sample: ends all living trajectories.
   void finish();
 
-  // What has ended since the last call.
+  // Trajectories that ended since the last call.
   std::vector<TipTrajectory> take_ended();
   const TrajectoryCounts& counts() const { return counts_; }
-  // Of those that have ended.
+  // Of the ended trajectories.
   const std::optional<TipTrajectory>& longest() const { return longest_; }
 
   template <class Archive>
@@ -94,7 +94,7 @@ class TipTrajectories {
  private:
   struct Live {
     TipTrajectory trajectory;
-    Tip tip;  // at the last look
+    Tip tip;  // at the last sample
     RotationMeter rotations;
   };
   Live new_live() const { return {{}, {}, RotationMeter(scene_.grid.dx)}; }

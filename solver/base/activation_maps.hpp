@@ -1,14 +1,14 @@
-// What a run tells of each node's beats.
+// Beats of each node, as a run reports them.
 #pragma once
 
 #include <vector>
 
 namespace myowave::solver {
 
-// Row-major (rows, columns). Times in t.u.; nan where there is none.
+// Row-major (rows, columns). Times in t.u.; nan if there is none.
 struct ActivationMaps {
-  // t.u., from one look at V to the next. A plane wave's upstroke, linear between two looks, is off by 0.007
-  // at most.
+  // t.u. between two samples of V. With linear interpolation the upstroke of a plane wave is off by at most
+  // 0.007.
   static constexpr double sample_every = 0.4;
 
   int rows = 0, columns = 0;

@@ -1,10 +1,10 @@
-// The state of a run as bytes. A class lists what it consists of once, in
+// The state of a run as bytes. A class lists its parts once, in
 //
 //   template <class Archive> void state(Archive& archive) { archive(a_, b_, ...); }
 //
-// and StateWriter takes it down, StateReader puts it back. Parts: what is trivially copyable (without
-// pointers), strings, vectors and Views of such, and classes with state(). Every part stands behind its size,
-// so that what another version of the program wrote is refused and not taken for something else.
+// StateWriter writes them, StateReader reads them. Parts are trivially copyable values without pointers,
+// strings, vectors and Views of such, and classes with state(). Every part is preceded by its size, so that
+// the state of another version of the program is refused.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -19,7 +19,7 @@
 
 namespace myowave::solver {
 
-// The bytes are no state of this kind of run by this version of the program.
+// The bytes are not a state of such a run by this version of the program.
 struct StateMismatch : std::runtime_error {
   StateMismatch() : std::runtime_error("its state is that of another version of the program") {}
 };
@@ -36,7 +36,7 @@ class StateWriter {
     (put(parts), ...);
   }
 
-  // In order. Large Views are not copied: they have to stay as they are until the pieces are written.
+  // In order. Large Views are not copied: they must not change until the pieces are written.
   std::vector<std::span<const std::byte>> pieces() const {
     std::vector<std::span<const std::byte>> pieces;
     std::size_t from = 0;
@@ -106,7 +106,7 @@ class StateReader {
  public:
   static constexpr bool loads = true;
 
-  // Of bytes that stay where they are.
+  // Refers to the bytes; they must outlive the reader.
   explicit StateReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   // Errors: StateMismatch.

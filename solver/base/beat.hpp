@@ -14,7 +14,7 @@ struct BeatLevels {
   static constexpr double repolarisation = 0.9;  // fraction of the amplitude, of Beat::apd90
 };
 
-// An action potential at a point. Times in t.u., nan where not known.
+// An action potential at a point. Times in t.u., nan if unknown.
 struct Beat {
   double upstroke = 0;                                       // V = 0.5
   double period = std::numeric_limits<double>::quiet_NaN();  // to the next upstroke

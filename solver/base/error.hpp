@@ -10,12 +10,12 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The numerics failed: the message says time, place, state and what to do. Exit 3.
+// The numerics failed: the message gives time, place, state and what to do. Exit 3.
 struct NumericalFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The run was asked to stop and can go on later: no failure. Exit 75, EX_TEMPFAIL of sysexits.h.
+// The run was asked to stop and can be resumed; not a failure. Exit 75, EX_TEMPFAIL of sysexits.h.
 struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -1,4 +1,4 @@
-// Where a run computes. Kernels of two threads of the program may go on at once where their instances differ.
+// Where a run computes. Kernels of two threads of the program can overlap if their instances differ.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -7,9 +7,8 @@
 
 #include "kernels/base/row_loop.hpp"
 
-// Every execution space of the build has its instantiations: Kokkos::DefaultExecutionSpace,
-// where that is a device's Kokkos::DefaultHostExecutionSpace too, and where that is not Serial but there is
-// one, Kokkos::Serial.
+// Everything is instantiated for Kokkos::DefaultExecutionSpace, for Kokkos::DefaultHostExecutionSpace if that
+// is another, and for Kokkos::Serial if the build has it and it is neither.
 #if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
 #define MYOWAVE_HAS_DEVICE
 #endif
@@ -19,7 +18,8 @@
 
 namespace myowave::solver {
 
-// The mechanics is the host's: on its default space beside a device, else where the excitation is.
+// The mechanics runs on the host: on its default space if the excitation is on a device, else where the
+// excitation runs.
 template <class ExecutionSpace>
 using HostOf =
     std::conditional_t<runs_on_host<ExecutionSpace>, ExecutionSpace, Kokkos::DefaultHostExecutionSpace>;
@@ -31,10 +31,9 @@ struct ExecutionOn {
 };
 using Execution = ExecutionOn<Kokkos::DefaultExecutionSpace>;
 
-// The choices below stand in templates: only there is the branch that does not fit the backend left out.
+// These are templates, because only in templates does `if constexpr` discard the branch of another backend.
 
-// A host instance beside the default one. Empty where the backend has a single one, or a single core for
-// everything.
+// A host instance besides the default one. Empty if the backend has only one, or only one core.
 template <class Host = Kokkos::DefaultHostExecutionSpace>
 std::optional<Host> own_host_instance([[maybe_unused]] int threads) {
 #ifdef KOKKOS_ENABLE_OPENMP
@@ -46,8 +45,8 @@ std::optional<Host> own_host_instance([[maybe_unused]] int threads) {
   return std::nullopt;
 }
 
-// The host instance itself where the excitation runs there too, else a queue (stream) of its own, so that the
-// kernels of several small sheets fill the device together.
+// The host instance itself if the excitation runs on the host, else a queue (stream) of its own, so that the
+// kernels of several small sheets can fill the device together.
 template <class Device = Kokkos::DefaultExecutionSpace>
 Device own_device_instance(const Kokkos::DefaultHostExecutionSpace& host) {
   if constexpr (std::is_same_v<Device, Kokkos::DefaultHostExecutionSpace>)
@@ -56,7 +55,7 @@ Device own_device_instance(const Kokkos::DefaultHostExecutionSpace& host) {
     return Kokkos::Experimental::partition_space(Device(), 1)[0];
 }
 
-// Instances of one thread of the program, with so many host threads. Empty as above.
+// Instances for one thread of the program, with this many host threads. Empty as above.
 inline std::optional<Execution> own_execution(int threads) {
   const auto host = own_host_instance(threads);
   if (!host) return std::nullopt;

@@ -1,5 +1,5 @@
-// What a scene requires: which parts of the model run, as which variant, why the others do not, and the
-// memory of each.
+// The plan of a run: which parts of the model run, as which variant, why the others do not, and the memory of
+// each.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace myowave::solver {
 struct PlannedPart {
   std::string part{};  // "active tension"
   bool active = false;
-  std::string what{};              // the equation, kernel variant or file; empty where it is not active
+  std::string what{};              // the equation, kernel variant or file; empty if it is not active
   std::string why{};               // it is there, or why it is not
-  std::uint64_t device_bytes = 0;  // in Kokkos Views where the excitation runs, as long as the run lasts
+  std::uint64_t device_bytes = 0;  // in Kokkos Views where the excitation runs, during the whole run
   std::uint64_t host_bytes = 0;    // in Views of the host beside them, which may be the same memory
   std::uint64_t other_bytes = 0;   // on the host: tables, the factor (estimated), copies of the state
 

@@ -16,8 +16,8 @@ struct Bracket {
 
 // Halves the bracket around the place where `is_below(x)` turns from true to false, until it is not longer
 // than `tolerance` or no floating-point number is left between its ends. With tolerance 0, middle() is thus
-// within one rounding of the root. Where is_below is the same everywhere, the bracket shrinks to that end.
-// Errors: std::invalid_argument where low > high.
+// within one rounding of the root. If is_below is the same everywhere, the bracket shrinks to that end.
+// Errors: std::invalid_argument if low > high.
 template <class Predicate>
 Bracket bisect(Bracket bracket, double tolerance, const Predicate& is_below) {
   if (bracket.low > bracket.high) {

@@ -13,7 +13,7 @@ struct MeanSd {
 
 // Of samples at equal intervals that need not be independent.
 struct SeriesStatistics : MeanSd {
-  // Integrated correlation time in sampling intervals: 1 for independent samples. None where all are equal.
+  // Integrated correlation time in sampling intervals: 1 for independent samples. None if all are equal.
   std::optional<double> correlation;
   double effective_n = 0;     // n / correlation, at most n
   double standard_error = 0;  // of the mean: sd / sqrt(effective_n)

@@ -12,18 +12,18 @@ struct Tip {
   double x = 0;
   double y = 0;
   int charge = 0;
-  int trajectory = -1;  // -1: of none
+  int trajectory = -1;  // -1: none
 };
 
-// Where a trajectory begins or ends: with the run; together with one of opposite charge; at the edge of the
-// sheet; or with nothing near that explains it.
+// How a trajectory starts or ends: with the run; together with one of opposite charge; at the edge of the
+// sheet; or without a cause nearby.
 enum class TipEvent { run, pair, boundary, alone };
 
 // All whole rotations of a tip. A rotation is done when the direction of its motion has turned by 2 pi.
 struct TipCore {
   double x = 0, y = 0;  // time mean of the position
-  // Mean distance from the mean position of the same rotation: a core that moves by its radius in a rotation
-  // gets a tenth more, one that stays nothing.
+  // Mean distance from the mean position of the same rotation. A drift by one radius per rotation makes it a
+  // tenth larger.
   double radius = 0;
   std::int64_t rotations = 0;
 };
@@ -37,11 +37,11 @@ struct TipDrift {
 struct TipTrajectory {
   int number = 0;  // from 0 in the order of birth, tips of one instant by row and column
   int charge = 0;
-  double birth = 0, death = 0;  // t.u., first and last look with the tip
+  double birth = 0, death = 0;  // t.u., first and last sample with the tip
   TipEvent born = TipEvent::run, ended = TipEvent::run;
   std::optional<TipCore> core;     // none before one rotation
   std::optional<TipDrift> drift;   // none before two
-  std::optional<double> boundary;  // t.u., first look within ten nodes of an edge
+  std::optional<double> boundary;  // t.u., first sample within ten nodes of an edge
 };
 
 struct TrajectoryCounts {

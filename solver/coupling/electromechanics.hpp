@@ -23,11 +23,11 @@
 
 namespace myowave::solver {
 
-// Room for so many tips is there from the begin: turbulence has tens, raw step data hundreds.
+// Initial capacity of the list of tips: turbulence has tens, raw step data hundreds.
 inline constexpr std::size_t first_tips = 256;
 
-// A View and its copy on the host, allocated together, so that a look at it allocates nothing. The
-// same memory where the host reaches the View.
+// A View and its copy on the host, allocated together, so that a sample allocates nothing. Both are the same
+// memory if the host can access the View.
 template <class View>
 struct DeviceAndHost {
   View device;
@@ -46,7 +46,7 @@ class Electromechanics {
   using Space = typename ExecutionSpace::memory_space;
   using View = EnsembleField<Real, Space>;
 
-  // Solves the loaded rest state (Ta = 0), the reference of all areas, where there is mechanics.
+  // Solves the loaded rest state (Ta = 0), the reference of all areas, if there is mechanics.
   // Errors: NumericalFailure.
   Electromechanics(const ExecutionOn<ExecutionSpace>&, const Scene&, const InitialState&, PhaseSeconds&,
                    MechanicsStatistics&);
@@ -57,25 +57,26 @@ class Electromechanics {
   // Steps between solves; 0 in a rigid sheet.
   int mechanics_interval() const;
 
-  // Solves the equilibrium with the present tension, where that has changed, then refreshes the metric for
-  // the interval from t on and area(). Errors: NumericalFailure, also where the new metric makes dt unstable
-  // and the scene takes no substeps.
+  // Solves the equilibrium with the present tension, if that has changed, then refreshes the metric for the
+  // interval from t on and area(). Errors: NumericalFailure, also if the new metric makes dt unstable and the
+  // scene takes no substeps.
   void solve_mechanics(double t);
 
-  // `count` explicit steps from step `first`, each in so many substeps; t = step dt. Appends V at the
+  // `count` explicit steps from step `first`, each divided into `substeps`; t = step dt. Appends V at the
   // probes before each step.
   void advance(std::int64_t first, std::int64_t count, int substeps = 1);
 
-  // The bound of the metric of now.
+  // The bound of dt for the present metric.
   double stable_dt() const { return stable_dt_; }
 
-  // Keeps the state of now, for go_back(). Where the scene takes substeps; else there is no room for it.
+  // Saves the present state for go_back(). Only if the scene takes substeps; else no memory is allocated for
+  // it.
   void keep();
   void go_back();
 
   // Describes the first problem found in the state, with time, node and values: V, r or Ta is not finite, V
   // or r is out of range, or V alternates at the grid's scale and keeps doing so in the next step. Empty for
-  // a valid state. dt: of the steps that led here; 0: none did.
+  // a valid state. dt: of the last steps; 0 before the first.
   std::optional<std::string> check_state(double t, double dt);
 
   // kPa, of the Gauss points at the last solve.
@@ -92,8 +93,8 @@ class Electromechanics {
   // V, r, Ta of each probe now.
   std::vector<double> probe_values() const;
 
-  // What the crossings of V since the last look tell; the first look begins the maps. Where the scene has
-  // maps.
+  // Adds the crossings of V since the last sample to the maps; the first sample starts them. Only if the
+  // scene has maps.
   void sample_activation(double t);
   // Without the conduction velocity.
   ActivationMaps activation_maps() const;
@@ -106,7 +107,7 @@ class Electromechanics {
   InitialState download() const;
   std::vector<double> download_nodes() const;
 
-  // All that the steps to come depend on, between two steps.
+  // Everything that later steps depend on, between two steps.
   void save(StateWriter&);
   // Of a sheet of the same scene, at time t. Errors: StateMismatch.
   void load(StateReader&, double t);
@@ -125,11 +126,11 @@ class Electromechanics {
   void solve_rest_state();
   void download_tension();
   void add_to_statistics(const SolveReport&);
-  // To where conduction feels the nodes from t on; true where one has moved.
+  // Places the nodes that the metric uses from t on; true if one has moved.
   bool place_nodes(double t);
-  // So many steps of this dt, the first at first * dt.
+  // `count` steps of this dt, the first at first * dt.
   void take_steps(std::int64_t first, std::int64_t count, double dt);
-  // Steps without a stimulus, or one with those given; n is the row of the probes' record.
+  // Several steps without a stimulus, or one with the given stimuli; n is the row of the probes' record.
   void tiled_steps(int n, int count, double dt);
   void single_step(int n, const std::vector<tissue::ActiveStimulus>&, double dt);
   void measure_area();
@@ -146,16 +147,16 @@ class Electromechanics {
   Model<Real> model_;
   typename ModelForms<ExecutionSpace, Real>::Any form_;
   tissue::ExcitationFields<View> state_;
-  tissue::ExcitationFields<View> spare_;  // where the next steps go
+  tissue::ExcitationFields<View> spare_;  // destination of the next steps
   tissue::ExcitationFields<View> kept_;
   CleanRange clean_;
   double stable_dt_;
 
-  // The host solves the mechanics: the tension goes down, the nodes come up, nothing else.
+  // The host solves the mechanics: only the tension is copied to it, and only the nodes from it.
   std::optional<Equilibrium<Host>> equilibrium_;
   DeviceAndHost<GaussTension<Space>> gauss_tension_;
   NodeHistory node_history_;
-  DeviceAndHost<Nodes<Space>> nodes_;  // those that conduction feels
+  DeviceAndHost<Nodes<Space>> nodes_;  // those that the metric is computed from
   Kokkos::View<double*, Kokkos::HostSpace> element_areas_;
   std::vector<double> rest_areas_;
   AreaSample area_;
@@ -169,9 +170,9 @@ class Electromechanics {
   DeviceAndHost<Kokkos::View<int, Space>> tip_count_;
   DeviceAndHost<Kokkos::View<observe::PhaseSingularity*, Space>> tip_list_;
   observe::ActivationFields<Space> activation_;
-  std::optional<double> activation_sampled_;              // t of the last one
-  Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // room for all
-  std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those in it
+  std::optional<double> activation_sampled_;              // t of the last sample
+  Kokkos::View<tissue::ActiveStimulus*, Space> stimuli_;  // capacity for all
+  std::vector<tissue::ActiveStimulus> uploaded_stimuli_;  // those that stimuli_ holds
 };
 
 }  // namespace myowave::solver

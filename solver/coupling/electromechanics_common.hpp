@@ -30,7 +30,7 @@ inline elastic::ElementGrid make_elements(const Scene& scene) {
   return {(scene.grid.rows - 1) / cells, (scene.grid.columns - 1) / cells, cells * scene.grid.dx};
 }
 
-// What is in use of a View with room for more.
+// The used part of a View with spare capacity.
 template <class DataType, class... Traits>
 auto first_rows(const Kokkos::View<DataType, Traits...>& view, std::size_t rows) {
   const std::pair<std::size_t, std::size_t> range{0, rows};

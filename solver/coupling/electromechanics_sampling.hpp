@@ -18,7 +18,7 @@ namespace myowave::solver {
 
 namespace detail {
 
-// Maps and probes tell beats alike.
+// Maps and probes define beats alike.
 inline constexpr observe::ActivationLevels beat_levels{static_cast<float>(BeatLevels::upstroke),
                                                        static_cast<float>(BeatLevels::rearm),
                                                        static_cast<float>(BeatLevels::apd)};

@@ -30,7 +30,7 @@ std::vector<double> to_host(const ExecutionSpace& space, const View& view) {
   return {host.data(), host.data() + host.size()};
 }
 
-// Whether steps can go on tile by tile; else one by one over the whole sheet.
+// Whether steps can be taken on tiles; else one step at a time over the whole sheet.
 bool steps_in_tiles(const auto& form) {
   return std::visit([](const auto& f) { return std::decay_t<decltype(f.diffusion)>::mirrored_edges; }, form);
 }
@@ -139,7 +139,7 @@ void Electromechanics<ExecutionSpace, Real>::take_steps(std::int64_t first, std:
     return schedule_.active(static_cast<double>(first + n) * dt);
   };
   for (std::int64_t n = 0; n < count;) {
-    std::int64_t quiet = n;  // up to here no stimulus comes in between
+    std::int64_t quiet = n;  // steps n <= i < quiet have no stimulus
     while (detail::steps_in_tiles(form_) && quiet < count && stimuli_at(quiet).empty()) ++quiet;
     if (quiet > n) {
       tiled_steps(static_cast<int>(n), static_cast<int>(quiet - n), dt);

@@ -40,7 +40,7 @@ const NodeHistory::HostNodes& NodeHistory::at(double t) {
   return last();
 }
 
-// As the last nodes and what the others differ from them by: what has not moved stays where it is to the bit.
+// Adds weighted differences to the last nodes, so that nodes that have not moved stay bitwise the same.
 void NodeHistory::place(double t, std::size_t solves) {
   std::array<double, most_solves> times{};
   std::ranges::transform(solves_, times.begin(), &Solve::t);

@@ -1,5 +1,5 @@
-// The nodes of the last solves of the mechanics, and where these let the nodes be expected later: by the
-// polynomial through them in time.
+// The nodes of the last solves of the mechanics, and their extrapolation in time by the polynomial through
+// them.
 #pragma once
 
 #include <Kokkos_Core.hpp>
@@ -17,20 +17,20 @@ class NodeHistory {
   static constexpr std::size_t most_solves = 3;
 
   NodeHistory() = default;
-  // Keeps the last `solves`, 1 to most_solves.
+  // Stores the last `solves`, 1 to most_solves.
   NodeHistory(const elastic::ElementGrid&, std::size_t solves);
 
   bool empty() const { return known_ == 0; }
 
-  // Those in equilibrium at t, which is later than all before. True where one has moved since.
+  // Nodes in equilibrium at t, later than all before. True if one has moved since the last call.
   bool add(double t, const HostNodes&);
 
   // Of the last solve; before the first all zero.
   const HostNodes& last() const { return solves_[0].nodes; }
 
-  // Where the nodes are expected at t, not before the last solve: by the polynomial through as many solves as
-  // are known, or of fewer where it turns a corner of an element inside out, in the end the last nodes
-  // themselves. Valid until the next call.
+  // Extrapolated nodes at t, not before the last solve: by the polynomial through all stored solves, or
+  // through fewer if that inverts a corner of an element, at last the last nodes themselves. Valid until the
+  // next call.
   const HostNodes& at(double t);
 
   template <class Archive>
@@ -47,7 +47,7 @@ class NodeHistory {
   void place(double t, std::size_t solves);
 
   elastic::ElementGrid grid_;
-  std::array<Solve, most_solves> solves_;  // the last one first; empty past those that are kept
+  std::array<Solve, most_solves> solves_;  // the last one first; empty beyond kept_
   std::size_t kept_ = 0, known_ = 0;
   HostNodes placed_;
 };

@@ -14,11 +14,11 @@ namespace myowave::solver {
 template <class Real, class Scheme = tissue::ForwardEuler>
 using Model = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::ActiveTension<Real>, Scheme>;
 
-// Where nothing asks for Ta.
+// Without Ta.
 template <class Real, class Scheme = tissue::ForwardEuler>
 using ModelWithoutTension = tissue::MonodomainModel<cell::AlievPanfilov<Real>, cell::NoTension, Scheme>;
 
-// The stencil whose error a scheme's takes away.
+// The stencil that suits a scheme: their errors cancel.
 template <class Scheme>
 inline constexpr tissue::Stencil stencil_of =
     std::is_same_v<Scheme, tissue::SplitStep> ? tissue::Stencil::nine_point : tissue::Stencil::five_point;
@@ -31,7 +31,7 @@ Model<Real> make_model(const ExcitationSettings& excitation, const TensionSettin
           Real(1 / excitation.C_m)};
 }
 
-// The same that takes its steps by another scheme.
+// The same model with another scheme.
 template <class Scheme, class Real>
 Model<Real, Scheme> in_scheme(const Model<Real>& model) {
   return {model.cell, model.tension, model.D, model.inverse_C_m};
@@ -41,7 +41,7 @@ ModelWithoutTension<Real, Scheme> without_tension(const Model<Real>& model) {
   return {model.cell, {}, model.D, model.inverse_C_m};
 }
 
-// action(model), by a scheme, with Ta or without.
+// Calls action(model) with the model for a scheme, with Ta or without.
 template <class Scheme, class Real, class Action>
 void with_model(const Scene& scene, const Model<Real>& model, const Action& action) {
   if (has_tension(scene))

@@ -63,7 +63,7 @@ void require_stable_dt(const Scene& scene, const char* where) {
 }
 
 void require_bearable_stimuli(const Scene& scene, const char* where) {
-  if (scene.scheme == Scheme::split) return;  // it comes back from any V
+  if (scene.scheme == Scheme::split) return;  // it returns from any V
   const auto& e = scene.excitation;
   for (std::size_t n = 0; n < scene.stimuli.size(); ++n) {
     const double rise = scene.time.dt * scene.stimuli[n].amplitude / e.C_m;
@@ -91,7 +91,7 @@ double largest_stable_dt(const Scene& scene, double stiffness) {
 
 int needed_substeps(double dt, double stable_dt) {
   if (dt <= stable_dt) return 1;
-  constexpr double safety = 0.9;  // of the bound: the metric moves on before the next look at it
+  constexpr double safety = 0.9;  // of the bound: the metric changes until it is next checked
   return static_cast<int>(std::min<double>(most_substeps + 1, std::ceil(dt / (safety * stable_dt))));
 }
 
@@ -105,7 +105,7 @@ CleanRange CleanRange::with_margin(const Scene& scene) const {
 
 CleanRange clean_range(const Scene& scene, const InitialState& state) {
   const auto& e = scene.excitation;
-  double up = 0, down = 0;  // at most all stimuli at once
+  double up = 0, down = 0;  // largest, if all stimuli are on at once
   for (const auto& s : scene.stimuli) (s.amplitude > 0 ? up : down) += std::abs(s.amplitude);
   const auto [low_V, high_V] = std::ranges::minmax(state.V);
   const double low_r = std::min(0.0, std::ranges::min(state.r));
@@ -129,7 +129,7 @@ void require_stable(const Scene& scene, const char* where) {
 void require_clean_start(const Scene& scene, const InitialState& state) {
   const auto& e = scene.excitation;
   if (e.mu1 == 0) return;
-  // For every V that can come, as long as r_t keeps its sign there.
+  // For every V in reach, as long as r_t keeps its sign there.
   const double max_V = clean_range(scene, state).max_V;
   const double runaway = max_V <= e.b + 1 ? -e.eps * (e.mu2 + max_V) / e.mu1 : -infinity;
   for (std::size_t node = 0; node < state.V.size(); ++node) {
@@ -156,7 +156,7 @@ void require_clean_start(const Scene& scene, const InitialState& state) {
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings;
   // Below, an error of dt becomes a tenth of V at 0.9 (`myowave stability --map parameters`). An implicit
-  // rule does not go past.
+  // rule does not overshoot.
   const double fall = scene.time.dt * reaction_rate(scene.excitation) / scene.excitation.C_m;
   if (fall > 1 && scene.scheme == Scheme::euler)
     warnings.push_back(

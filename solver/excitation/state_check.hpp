@@ -45,7 +45,7 @@ struct WatchedState {
 };
 
 // Describes the first problem found in a state: V, r or Ta is not finite, V or r is out of range, or V
-// alternates at the grid's scale and keeps doing so. Empty for a valid state. `growing`: called where the
+// alternates at the grid's scale and keeps doing so. Empty for a valid state. `growing`: called if the
 // noise is too large, returns the observe::GrowingNoise.
 template <class ExecutionSpace, class View, class Growing>
 std::optional<std::string> check_state(const ExecutionSpace& space, const WatchedState<View>& state,

@@ -1,4 +1,4 @@
-// When which stimulus is on.
+// Which stimuli are on at which time.
 #pragma once
 
 #include <vector>
@@ -10,17 +10,17 @@ namespace myowave::solver {
 
 class StimulusSchedule {
  public:
-  // dt: pulses are told apart to within a small part of a step, so that t = step * dt, which is
-  // rounded, neither gains nor loses a step.
+  // dt: starts and ends of pulses have a tolerance of a small fraction of a step, so that the rounding of
+  // t = step * dt neither adds nor drops a step.
   StimulusSchedule(const std::vector<Stimulus>&, const GridSettings&, double dt);
 
   // Those with start + m period <= t < start + m period + duration.
   const std::vector<tissue::ActiveStimulus>& active(double t);
 
-  // Whether any pulse is on at t or begins later.
+  // Whether any pulse is on at t or starts later.
   bool more_to_come(double t) const;
 
-  // Of the periodic stimulus that ends last; 0 where there is none.
+  // Of the periodic stimulus that ends last; 0 if there is none.
   double last_period() const;
 
  private:
