@@ -1,4 +1,4 @@
-// Names for what something is made of: equal contents have equal names, others with all but certainty not.
+// Names for contents: equal contents have equal names; different contents almost certainly do not.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace myowave::apps {
 // 16 hexadecimal digits of XXH3.
 std::string content_hash(std::string_view);
 
-// Of the file's bytes. Errors: InputError where it cannot be read.
+// Hash of the bytes of a file. Errors: InputError if it cannot be read.
 std::string content_hash_of_file(const std::filesystem::path&);
 
 }  // namespace myowave::apps

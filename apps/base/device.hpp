@@ -4,7 +4,7 @@
 
 namespace myowave::apps {
 
-// Kokkos for one command. Its advice on thread binding is for those who launch it themselves.
+// Kokkos for one command. Its warnings about thread binding are off: the command binds no threads.
 class Device {
  public:
   Device() {

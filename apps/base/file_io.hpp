@@ -15,12 +15,12 @@ namespace myowave::apps {
 // Errors: std::runtime_error "cannot write FILE: reason".
 void replace_file(const std::filesystem::path&, std::string_view content);
 
-// What was written to the file is on the disk when this returns.
+// Flushes a file to the disk.
 // Errors: std::runtime_error "cannot write FILE: reason".
 void sync_file(const std::filesystem::path&);
 
-// A text that grows. Each append is handed to the system at once, so that whole rows are on disk
-// when the process dies.
+// A text file that grows. Each append goes to the system at once, so that a process that dies leaves
+// whole rows.
 class AppendedFile {
  public:
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.

@@ -20,7 +20,7 @@ struct Hdf5Error : std::runtime_error {
 class Hdf5Handle {
  public:
   Hdf5Handle() = default;
-  // Errors: Hdf5Error where `id` is HDF5's sign of a failure.
+  // Errors: Hdf5Error if `id` is negative, which is how HDF5 returns a failure.
   Hdf5Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what);
   Hdf5Handle(Hdf5Handle&& other) noexcept
       : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
@@ -34,7 +34,7 @@ class Hdf5Handle {
   }
 
   operator hid_t() const { return id_; }
-  // Left open for good.
+  // Never closes the object.
   void abandon() { id_ = H5I_INVALID_HID; }
 
  private:
@@ -50,7 +50,7 @@ void check_hdf5(herr_t status, const std::string& what);
 // disk; the handles have closed all others by then).
 void start_hdf5();
 
-// To read, also while a run writes it.
+// Opens a file for reading, also while a run writes it.
 Hdf5Handle open_hdf5(const std::filesystem::path&);
 
 struct StoredDataset {
@@ -59,7 +59,7 @@ struct StoredDataset {
 };
 StoredDataset open_dataset(hid_t file, const char* name);
 
-// Frame n of a dataset whose first index is the frame; of one without others, the number.
+// Frame n of a dataset (frame, ...): the numbers of that frame.
 std::vector<double> read_frame(const StoredDataset&, std::size_t n);
 
 void write_attribute(hid_t object, const char* name, const std::string& text);

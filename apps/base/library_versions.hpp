@@ -9,7 +9,7 @@ namespace myowave::apps {
 // Of a version coded as a number, MAJOR major + MINOR minor + patch: "MAJOR.MINOR.PATCH".
 std::string dotted(int code, int major, int minor);
 
-// By name; all but Kokkos, whose headers are for what is compiled for a device.
+// By name. Without Kokkos, because its headers need a device compiler.
 nlohmann::ordered_json library_versions();
 
 }  // namespace myowave::apps

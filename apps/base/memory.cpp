@@ -51,7 +51,7 @@ int runs_that_fit(int wanted, const MemoryNeed& need, const std::optional<std::u
 }
 
 void require_memory(const solver::Scene& scene) {
-  // What a device holds is refused there (solver/run/device_memory.hpp).
+  // solver/run/device_memory.hpp checks the memory of a device.
   const std::uint64_t needed = memory_need(scene).host;
   const std::optional<std::uint64_t> free = free_memory();
   if (!free || needed <= *free) return;

@@ -1,4 +1,4 @@
-// Whether a scene fits this machine's memory, asked before anything is allocated.
+// Checks before anything is allocated that a scene fits the memory of this machine.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace myowave::apps {
 // Bytes that can be used without swapping; empty if the system does not report them.
 std::optional<std::uint64_t> free_memory();
 
-// Bytes that a run takes of the host's memory, and of a device's where that is another.
+// Bytes that a run needs in host memory and, if the device has its own, in device memory.
 struct MemoryNeed {
   std::uint64_t host = 0, device = 0;
 };
 MemoryNeed memory_need(const solver::Scene&);
 
 // How many parallel runs fit if each needs at most that much: at most `wanted`, at least one.
-// What is not known to be free sets no bound.
+// An unknown amount of free memory sets no bound.
 int runs_that_fit(int wanted, const MemoryNeed&, const std::optional<std::uint64_t>& free_host,
                   const std::optional<std::uint64_t>& free_device);
 

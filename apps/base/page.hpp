@@ -1,4 +1,4 @@
-// Self-contained HTML pages: everything that they show stands in the one file.
+// Self-contained HTML pages: one file holds everything that they show.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,7 @@
 
 namespace myowave::apps {
 
-// Text that any reader of UTF-8 and XML takes: what is no UTF-8, and control characters other than tab and
-// newline, become U+FFFD.
+// Valid UTF-8 and XML text: invalid bytes, and control characters other than tab and newline, become U+FFFD.
 std::string valid_text(std::string_view);
 
 // For the content and the quoted attributes of HTML and XML.

@@ -18,7 +18,7 @@ void watch_signals() {
   struct sigaction action {};
   action.sa_handler = request_stop;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // a write under way is not an error
+  action.sa_flags = SA_RESTART;  // an interrupted write is not an error
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGUSR1, &action, nullptr);
   action.sa_flags = SA_RESTART | SA_RESETHAND;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array sheets{81, 121, 251};
 constexpr int compared_sheet = 81;  // where the contracting spiral drifts as in the paper
-constexpr int starts = 5;           // phases of the first turn at which contraction begins
+constexpr int starts = 5;           // phases of the first turn at which contraction starts
 // Columns between the core and the left edge, of the rigid spiral that is moved there. From 10 to 15 it takes
 // up a distance of 11 and follows the edge; nearer, the edge throws it back into the sheet or ends it.
 constexpr int edge_distance = 12;

@@ -1,4 +1,4 @@
-// The runs and the making of each figure; apps/paper/recipe.hpp says what the two functions are.
+// The two functions of each figure: its runs, and the figure made from them (apps/paper/recipe.hpp).
 #pragma once
 
 #include <vector>

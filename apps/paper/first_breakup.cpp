@@ -36,7 +36,7 @@ std::span<const Start> starts_of(Extent extent) {
 
 constexpr const char* state_name = "breakup_state_P15";
 
-// The precondition of the scene, as a run of its own that all values of mu1 go on from.
+// The precondition of the scene, as a run of its own from which all values of mu1 start.
 Job state_job() {
   SceneText scene = shipped_scene("rigid_spiral");
   scene.set("initial", "{type = \"broken_front\", width = 5, r0 = 1.5, offset = [-5, 40]}")

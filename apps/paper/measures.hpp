@@ -31,7 +31,7 @@ std::string text_of(const solver::MeanSd&, int decimals);
 std::string count_text(const solver::MeanSd&);
 // "+1.2 %" of the paper's number.
 std::string relative_difference(double ours, double papers);
-// What is said of a statement of the paper that holds here too, or does not.
+// The verdict on a statement of the paper: it holds here too, or not.
 std::string verdict(bool holds);
 
 // A row of periods (ms) beside the paper's mean.
@@ -47,7 +47,7 @@ Series tip_paths(const RunResults&, std::string name);
 // When a tip first came within ten nodes of an edge, t.u.; NaN where none did.
 double time_at_edge(const RunResults&);
 
-// Contraction begins at phase number `start` of `starts` of a rigid turn; the first is the shipped state
+// Contraction starts at phase number `start` of `starts` of a rigid turn; the first is the shipped state
 // itself.
 void begin_at_phase(SceneText&, int start, int starts);
 
@@ -58,7 +58,7 @@ Point mean_tip(const RunResults&, double from);
 // Mean speed along the path of the core: of the longest trajectory, its tip averaged over each rotation from
 // `from` to `to` (t.u.); length units/t.u. NaN where there are less than two rotations between. The drift in
 // trajectories.csv (solver::TipDrift) is the slope of one straight line instead: of a core that follows an
-// edge around a corner it says little.
+// edge around a corner it means little.
 double core_speed(const RunResults&, double from, double to);
 
 }  // namespace myowave::apps

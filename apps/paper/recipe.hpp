@@ -1,4 +1,4 @@
-// How a figure of the paper is made again: the runs that it needs, and what is drawn and told of them.
+// How a figure of the paper is reproduced: its runs, its plots, and its numbers beside those of the paper.
 //
 // A run is a scene of apps/scenes with some values of its own, a job of apps/paper/run_jobs.hpp. Figures
 // share runs: jobs of one name are the same.
@@ -20,7 +20,7 @@ namespace myowave::apps {
 // One number of the paper beside ours.
 struct Comparison {
   std::string what;
-  std::string paper;  // or of an independent program; empty where neither gives it
+  std::string paper;  // or of an independent program; empty if neither gives it
   std::string ours{};
   std::string difference{};  // in words or per cent; empty where there is nothing to compare with
   std::string samples{};     // what the number is a mean of

@@ -43,14 +43,14 @@ std::vector<Job> jobs_of(std::span<const FigureRecipe> recipes, Extent extent) {
 
 std::map<std::string, JobOutcome> run_all(std::span<const Job> jobs, const fs::path& folder, int parallel) {
   const bool terminal = isatty(STDERR_FILENO) == 1;
-  const auto told = [&](const std::string& name, const JobOutcome& outcome, std::size_t done) {
+  const auto report = [&](const std::string& name, const JobOutcome& outcome, std::size_t done) {
     const std::string what = !outcome.ok()    ? fmt::format("failed: {}", outcome.message)
                              : outcome.reused ? "done before"
                                               : fmt::format("{:.1f} s", outcome.seconds);
     fmt::print(stderr, "{}{} of {} runs: {}: {}{}", terminal ? "\r\x1b[K" : "", done, jobs.size(), name, what,
                terminal && outcome.ok() ? "" : "\n");
   };
-  auto outcomes = run_jobs(fs::read_symlink("/proc/self/exe"), jobs, folder, parallel, told);
+  auto outcomes = run_jobs(fs::read_symlink("/proc/self/exe"), jobs, folder, parallel, report);
   if (terminal && !jobs.empty()) fmt::print(stderr, "\n");
   return outcomes;
 }

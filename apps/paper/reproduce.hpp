@@ -1,5 +1,5 @@
-// `myowave reproduce`: the runs of the chosen figures, then of each figure its data, its picture and its
-// numbers beside the paper's.
+// `myowave reproduce`: runs the scenes of the chosen figures, then writes the data, the picture and the
+// numbers of each figure beside those of the paper.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,9 @@ std::vector<FigureRecipe> choose_figures(const std::vector<std::string>& numbers
 // The data of all curves: panel, series, x, y, error.
 std::string figure_csv(const Figure&);
 
-// Makes them in `folder`, `parallel` runs at once (docs of the files: apps/paper/README.md); what is done
-// already by this program is kept. Says on the terminal what comes out. Errors: NumericalFailure, after all
-// else is made, where a run failed.
+// Makes the figures in `folder` with `parallel` runs at once (files: apps/paper/README.md). Reuses finished
+// runs of the same revision. Prints the results. Errors: NumericalFailure if a run failed, after everything
+// else is made.
 void reproduce(std::span<const FigureRecipe>, Extent, const std::filesystem::path& folder, int parallel,
                const std::string& command);
 

@@ -98,7 +98,8 @@ bool is_done(const JobFiles& files, const std::string& scene) {
   _exit(127);
 }
 
-pid_t begin(const fs::path& program, const std::vector<std::string>& environment, const JobFiles& files) {
+pid_t start_process(const fs::path& program, const std::vector<std::string>& environment,
+                    const JobFiles& files) {
   const std::vector<std::string> words{
       program.string(), "run", files.scene.string(), "--out", files.run.string(), "--force", "--quiet"};
   const auto arguments = pointers_to(words), variables = pointers_to(environment);
@@ -112,17 +113,18 @@ pid_t begin(const fs::path& program, const std::vector<std::string>& environment
 class JobQueue {
  public:
   JobQueue(fs::path program, std::span<const Job> jobs, fs::path folder, int parallel,
-           const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told)
+           const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& report)
       : program_(std::move(program)),
         jobs_(jobs),
         folder_(std::move(folder)),
         parallel_(std::max(1, parallel)),
         environment_(environment_of_runs(parallel_)),
-        told_(told) {
+        report_(report) {
     for (const Job& job : jobs_)
       for (const auto& need : job.needs)
         if (std::ranges::find(jobs_, need, &Job::name) == jobs_.end())
-          throw solver::InputError(fmt::format("job {} needs {}, which is none of the jobs", job.name, need));
+          throw solver::InputError(
+              fmt::format("job {} needs {}, which is not in the list of jobs", job.name, need));
     fs::create_directories(folder_ / "scenes");
     fs::create_directories(folder_ / "runs");
   }
@@ -131,11 +133,11 @@ class JobQueue {
     while (outcomes_.size() < jobs_.size()) {
       const std::size_t before = outcomes_.size();
       for (const Job& job : jobs_)
-        if (running_.size() < static_cast<std::size_t>(parallel_)) try_to_begin(job);
+        if (running_.size() < static_cast<std::size_t>(parallel_)) try_to_start(job);
       if (!running_.empty())
         wait_for_one();
       else if (outcomes_.size() == before)
-        throw solver::InputError("jobs that need one another cannot begin");
+        throw solver::InputError("jobs that need one another cannot start");
     }
     return std::move(outcomes_);
   }
@@ -146,7 +148,7 @@ class JobQueue {
     Clock::time_point start;
   };
 
-  void try_to_begin(const Job& job) {
+  void try_to_start(const Job& job) {
     if (outcomes_.contains(job.name) || is_running(job)) return;
     bool reusable = true;
     for (const auto& need : job.needs) {
@@ -161,7 +163,7 @@ class JobQueue {
     // First, so that results beside the new scene are never those of an old one.
     fs::remove_all(files.run);
     replace_file(files.scene, job.scene);
-    running_.emplace(begin(program_, environment_, files), Running{&job, Clock::now()});
+    running_.emplace(start_process(program_, environment_, files), Running{&job, Clock::now()});
   }
 
   bool is_running(const Job& job) const {
@@ -187,7 +189,7 @@ class JobQueue {
 
   void end(const Job& job, const JobOutcome& outcome) {
     outcomes_[job.name] = outcome;
-    told_(job.name, outcome, outcomes_.size());
+    report_(job.name, outcome, outcomes_.size());
   }
 
   fs::path program_;
@@ -195,7 +197,7 @@ class JobQueue {
   fs::path folder_;
   int parallel_;
   std::vector<std::string> environment_;
-  const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told_;
+  const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& report_;
   std::map<pid_t, Running> running_;
   std::map<std::string, JobOutcome> outcomes_;
 };
@@ -215,8 +217,8 @@ SceneText& SceneText::set(std::string_view key, std::string_view value) {
 
 std::map<std::string, JobOutcome> run_jobs(
     const fs::path& program, std::span<const Job> jobs, const fs::path& folder, int parallel,
-    const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told) {
-  return JobQueue(program, jobs, folder, parallel, told).run();
+    const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& report) {
+  return JobQueue(program, jobs, folder, parallel, report).run();
 }
 
 }  // namespace myowave::apps

@@ -1,8 +1,7 @@
-// Many runs of the `myowave` command, each a process of its own, as many at once as there are cores.
+// Runs of the `myowave` command as parallel processes.
 //
-// A folder of jobs holds scenes/NAME.toml, which `myowave run` takes as it is, and runs/NAME, what it
-// left there, with what it said in runs/NAME.log. A job that was done by this very program, from the
-// same scene and the same states of others, is not done again.
+// A folder of jobs holds the scenes (scenes/NAME.toml), the result folders (runs/NAME) and the output of the
+// command (runs/NAME.log). A finished job of the same revision, scene and input states is not repeated.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +18,7 @@ namespace myowave::apps {
 class SceneText {
  public:
   explicit SceneText(std::string_view toml) : text_(toml) {}
-  // As `--set key=value` (apps/input/scene_file.hpp). Errors: InputError where that leads nowhere.
+  // As `--set key=value` (apps/input/scene_file.hpp). Errors: InputError if there is no such key.
   SceneText& set(std::string_view key, std::string_view value);
   const std::string& text() const { return text_; }
 
@@ -34,19 +33,19 @@ struct Job {
 };
 
 struct JobOutcome {
-  int status = 0;       // exit status of the run; 128 + n where signal n ended it, -1 where it never began
-  std::string message;  // the last line that a failed run said
-  double seconds = 0;   // wall time; 0 where it was done before
+  int status = 0;       // exit status of the run; 128 + n if signal n ended it, -1 if it never started
+  std::string message;  // the last line that a failed run printed
+  double seconds = 0;   // wall time; 0 if it was reused
   bool reused = false;
   bool ok() const { return status == 0; }
 };
 
-// Runs all with `program`, the `myowave` command, at most `parallel` at once, each with its share of the
-// machine's threads. A job that fails ends neither the others nor this function; those that need it are not
-// begun. `told`, after each job: its name, what came of it, how many are done. Errors: InputError where a job
-// needs one that is not in the list; std::runtime_error where the system refuses files or processes.
+// Runs all jobs with `program`, the `myowave` command, at most `parallel` at once, each with its share of the
+// machine's threads. After a failed job the others continue, except for those that need its results. Calls
+// `report` after each job with its name, its outcome and the number of finished jobs. Errors: InputError if a
+// job needs one that is not in the list; std::runtime_error if the system refuses files or processes.
 std::map<std::string, JobOutcome> run_jobs(
     const std::filesystem::path& program, std::span<const Job>, const std::filesystem::path& folder,
-    int parallel, const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& told);
+    int parallel, const std::function<void(const std::string&, const JobOutcome&, std::size_t)>& report);
 
 }  // namespace myowave::apps

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int nodes = 71;             // 7 x 7 elements: Fig 5 samples "the 7 adjacent elements" of a row
 constexpr int elements = 7;           // a row
-constexpr double first_frame = 1500;  // t.u.; Figs 3 and 4 begin at 15 s
+constexpr double first_frame = 1500;  // t.u.; Figs 3 and 4 start at 15 s
 constexpr double areas_from = 1000;   // t.u.; Fig 5 samples 10 to 15 s
 constexpr double areas_every = 0.6;   // t.u., 6 ms
 constexpr int frames = 4;

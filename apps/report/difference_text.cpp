@@ -12,7 +12,7 @@ DifferenceText difference_text(std::span<const double> a, std::span<const double
   const auto welch = solver::welch_t_test(of_a, of_b);
   const auto p = [](const auto& test) {
     if (!test) return std::string("no test");
-    constexpr double smallest = 1e-12;  // below it the normal tail is not what the samples tell of
+    constexpr double smallest = 1e-12;  // below it the p value of the normal tail has no meaning
     return test->p < smallest ? fmt::format("p < {:.0g}", smallest) : fmt::format("p = {:.2g}", test->p);
   };
   return {.difference = fmt::format("difference {:+.2f}; unpaired t-test {}; with the correlation {}",

@@ -1,4 +1,4 @@
-// The frames of a run as a film.
+// The frames of a run as a movie.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace myowave::apps {
 
-// Writes an MP4 (H.264, 24 pictures a second) by ffmpeg. Returns why not, where there is no ffmpeg, it fails,
-// or the run has no fields.h5; else an empty text.
+// Writes an MP4 (H.264, 24 frames per second) with ffmpeg. Returns an empty text, or the reason if ffmpeg is
+// missing or fails, or if the run has no fields.h5.
 std::string write_movie(const ReportRun&, const std::filesystem::path& file);
 
 }  // namespace myowave::apps

@@ -1,4 +1,4 @@
-// A run as report.html shows it: what its folder holds, as far as it holds it.
+// A run as report.html shows it. Missing files are left out.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +31,8 @@ struct NamedPlot {
 
 class ReportRun {
  public:
-  // Errors: InputError where the folder is no run's: it has neither manifest.json nor summary.json, or one
-  // that cannot be read.
+  // Errors: InputError if the folder is not that of a run: it has neither manifest.json nor summary.json, or
+  // one that cannot be read.
   explicit ReportRun(const std::filesystem::path& folder);
 
   const std::string& name() const { return name_; }
@@ -41,10 +41,10 @@ class ReportRun {
   // The effective configuration; null without a manifest.
   nlohmann::json configuration() const;
   double ms_per_tu() const;
-  // What is missing or cut off, in words.
+  // Notes on missing or incomplete files.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  // Empty where the run did not leave it.
+  // Empty if the run did not write it.
   const CsvTable& tips() const { return tips_; }
 
   std::vector<Fact> numbers() const;

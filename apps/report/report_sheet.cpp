@@ -14,11 +14,11 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr std::size_t most_frames = 300;   // 12 s of film
+constexpr std::size_t most_frames = 300;   // 12 s of movie
 constexpr int fewest_samples = 101;        // along the longer side, before frames are left out
 constexpr std::size_t most_tips = 40'000;  // 1 MB
 
-// How many of n are kept, evenly, first and last among them: every one of them where they are few.
+// Number of samples out of n, at every `stride` and the last.
 int samples(int n, int stride) { return (n - 1 + stride - 1) / stride + 1; }
 
 struct Sampling {

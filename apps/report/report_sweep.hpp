@@ -1,4 +1,4 @@
-// What a report shows of a sweep's folder.
+// Pairs and plots of a sweep, for its report.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace myowave::apps {
 
 // Pairs from the same state: in how many the other run broke up later than the reference, not at all, or
-// earlier. Undecided where neither broke up while both were watched.
+// earlier. Undecided if neither broke up while both ran.
 struct PairCount {
   int later = 0, never = 0, earlier = 0, undecided = 0, missing = 0;
   std::vector<double> delays;  // t.u., of the pairs that both broke up
@@ -18,14 +18,14 @@ struct PairCount {
   int decided() const { return later + never + earlier; }
 };
 
-// Pairs that have one start in common, or whatever the axes beside that of the curves and that of the pairs
-// say.
+// All pairs, or those with equal values on the axes besides that of the curves and that of the pairs; `what`
+// names these values.
 struct PairRow {
   std::string what;
   PairCount count;
 };
 
-// A row for each combination of those axes, and one of all. Empty where the sweep pairs nothing.
+// A row for each combination of those axes, and one of all. Empty if the sweep has no pairs.
 std::vector<PairRow> pair_rows(const SweepTable&);
 
 // First break-up, and each observable, over the number axis that has the most values; a plot, or a curve, for

@@ -24,19 +24,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Waves take about a rotation of a spiral, 27 t.u., to look as they will. On large sheets less is done: so
-// many node steps take a third of a second.
-constexpr double begin_tu = 40, begin_node_steps = 3e8;
+// Waves have their usual number and form after about one rotation of a spiral, 27 t.u. Large sheets run fewer
+// node steps.
+constexpr double start_tu = 40, start_node_steps = 3e8;
 constexpr double watched_s = 1.3;
 
-double begin_of(double duration, const solver::Scene& scene) {
+double start_of(double duration, const solver::Scene& scene) {
   const double nodes = static_cast<double>(scene.grid.rows) * scene.grid.columns;
-  return std::min({duration, begin_tu, std::max(1.0, begin_node_steps / nodes) * scene.time.dt});
+  return std::min({duration, start_tu, std::max(1.0, start_node_steps / nodes) * scene.time.dt});
 }
 
 struct Enough {};
 
-// Follows one stage of a run, until it has been watched for long enough.
+// Times one stage of a run, and stops the run after budget_s.
 class StageClock final : public solver::OutputSink {
  public:
   StageClock(solver::RunStage::Kind stage, solver::OutputSink& outputs,
@@ -58,7 +58,7 @@ class StageClock final : public solver::OutputSink {
   void maps(const solver::ActivationMaps& maps) override { outputs_.maps(maps); }
   bool wants_fields() const override { return outputs_.wants_fields(); }
 
-  // First at t = 0, when the sheet is made, solved and shown: that is done once.
+  // The first call is at t = 0, after the set-up, which is done only once.
   void progress(const solver::Progress& now) override {
     if (now.stage.kind != stage_) return;
     last_ = now;
@@ -92,9 +92,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// How long the scene takes to t_end; goes on from the state to that of its begin.
-double seconds_of_begin(solver::Scene scene, solver::InitialState& state) {
-  const double t_end = std::exchange(scene.time.t_end, begin_of(scene.time.t_end, scene));
+// Seconds of the scene to t_end, extrapolated from its start. Advances the state by that start.
+double seconds_of_start(solver::Scene scene, solver::InitialState& state) {
+  const double t_end = std::exchange(scene.time.t_end, start_of(scene.time.t_end, scene));
   solver::OutputSink nowhere;
   solver::RunSummary summary;
   StageClock clock(solver::RunStage::Kind::scene, nowhere);
@@ -106,7 +106,7 @@ double seconds_of_precondition(solver::Scene scene, const solver::Precondition& 
                                solver::InitialState& state) {
   scene.time.t_end = 0;
   scene.initial.preconditions = {one};
-  scene.initial.preconditions[0].duration = begin_of(one.duration, scene);
+  scene.initial.preconditions[0].duration = start_of(one.duration, scene);
   solver::OutputSink nowhere;
   solver::RunSummary summary;
   StageClock clock(solver::RunStage::Kind::precondition, nowhere);
@@ -122,7 +122,7 @@ double seconds_with_outputs(const solver::Scene& scene, solver::InitialState sta
   try {
     solver::run(scene, std::move(state), clock, summary);
   } catch (const Enough&) {
-    // The clock has what it needs.
+    // The clock ran for long enough.
   }
   return clock.extrapolated(scene.time.t_end);
 }
@@ -135,7 +135,7 @@ Estimate estimate(const solver::Scene& given) {
   solver::InitialState state;
   if (const auto settling = spiral_to_settle(scene)) {
     solver::InitialState other_sheet = solver::make_initial_state(*settling);
-    result.settling_s = seconds_of_begin(*settling, other_sheet);
+    result.settling_s = seconds_of_start(*settling, other_sheet);
     scene.initial = settling->initial;
     state = solver::make_initial_state(scene);
   } else {
@@ -145,7 +145,7 @@ Estimate estimate(const solver::Scene& given) {
   scene.initial.preconditions.clear();
   for (const auto& one : given.initial.preconditions)
     result.preconditions_s += seconds_of_precondition(scene, one, state);
-  if (given.initial.preconditions.empty()) seconds_of_begin(scene, state);
+  if (given.initial.preconditions.empty()) seconds_of_start(scene, state);
   result.scene_s = seconds_with_outputs(scene, std::move(state));
   return result;
 }

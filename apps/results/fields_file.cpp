@@ -27,8 +27,8 @@ unsigned index_width(std::size_t frames) {
 Hdf5Handle create_file(const std::string& path, const std::string& what, std::size_t expected_frames) {
   start_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
-  // Without the writer's lock the file opens in other programs while the run goes on; each frame is
-  // flushed, so they find it whole.
+  // No lock, so that other programs can open the file during the run. Each frame is flushed: they read
+  // complete frames.
   check_hdf5(H5Pset_file_locking(access, false, true), what);
   // Chunks go to the disk when they are written, before the flush writes the index that names them.
   check_hdf5(H5Pset_cache(access, 0, 0, 0, 0), what);
@@ -65,10 +65,10 @@ FieldsFile::FieldsFile(std::filesystem::path path, const FrameShape& shape, doub
 }
 
 FieldsFile::FieldsFile(const std::filesystem::path& path, const FrameShape& shape, double ms_per_tu,
-                       std::size_t expected_frames, const Kept& kept)
+                       std::size_t expected_frames, const Saved& saved)
     : FieldsFile(path.string() + ".tmp", shape, ms_per_tu, expected_frames) {
-  copy_frames(path, kept.frames);
-  if (digest_ != kept.digest)
+  copy_frames(path, saved.frames);
+  if (digest_ != saved.digest)
     throw std::runtime_error(
         fmt::format("cannot resume {}: its frames are not those that were written", path.string()));
   sync();
@@ -78,7 +78,7 @@ FieldsFile::FieldsFile(const std::filesystem::path& path, const FrameShape& shap
 
 void FieldsFile::copy_frames(const std::filesystem::path& from, std::size_t frames) {
   const std::string what = fmt::format("cannot resume {}", from.string());
-  // Its writer may have died between the note of a new size and the size itself.
+  // The writer may have died between noting a new size and changing it.
   constexpr std::uintmax_t room = 1 << 20;
   std::error_code error;
   std::filesystem::resize_file(from, std::filesystem::file_size(from, error) + room, error);
@@ -141,7 +141,7 @@ void FieldsFile::append(const solver::Frame& frame) {
   try {
     append_datasets(frame);
   } catch (const Hdf5Error&) {
-    // Closing would write an index that names data which are not there.
+    // Closing would write an index that refers to missing data.
     for (auto* dataset : {&time_, &V_, &r_, &Ta_, &nodes_, &grid_}) dataset->id.abandon();
     file_.abandon();
     throw;
@@ -161,7 +161,7 @@ void FieldsFile::append_datasets(const solver::Frame& frame) {
     extend(nodes_, H5T_NATIVE_DOUBLE, frame.nodes.data());
     extend(grid_, H5T_NATIVE_FLOAT, grid_positions(shape_, frame.nodes).data());
   }
-  // Last, so that a time is only there with its fields.
+  // Last, so that no time stands without its fields.
   extend(time_, H5T_NATIVE_DOUBLE, &frame.t);
   check_hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), failing(path_));
 }

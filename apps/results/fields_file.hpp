@@ -6,9 +6,9 @@
 //   nodes  [frame, node, 2]        element nodes x1, x2, length units; node = I (element columns + 1) + J
 //   grid   [frame, row, column, 2] grid nodes x1, x2, float32, what a viewer draws V on
 //
-// A rigid run has neither nodes nor grid. Each frame is a chunk, compressed, and is flushed: a file
-// whose writer died, or whose disk is full, holds the frames before. For that the index of a dataset's chunks
-// has room for all of them in one node, which is written over in one piece; an index that grows is torn for a
+// A rigid run has neither nodes nor grid. Each frame is one compressed chunk and is flushed. If the writer
+// dies or the disk is full, the file still holds the earlier frames. For this, one node of the chunk index
+// has room for all chunks and is overwritten in one piece; a growing index would be inconsistent for a
 // moment.
 #pragma once
 
@@ -27,22 +27,22 @@ namespace myowave::apps {
 class FieldsFile {
  public:
   // Errors: std::runtime_error "cannot write FILE: reason", here and in append.
-  // expected_frames: at most so many are to come; more are an index that grows.
+  // expected_frames: upper bound of the number of frames. With more frames the index grows.
   FieldsFile(std::filesystem::path, const FrameShape&, double ms_per_tu, std::size_t expected_frames);
-  // Frames so far, and XXH3 of what they hold, one after another.
-  struct Kept {
+  // Frames so far, and XXH3 of their contents in order.
+  struct Saved {
     std::size_t frames = 0;
     std::uint64_t digest = 0;
   };
-  // Goes on with a file that is there, whatever came of what follows the frames that are kept: these are
-  // copied into a new one, which takes its place. Errors: std::runtime_error, also where they are not there,
-  // or others.
+  // Resumes an existing file after its saved frames, which are copied into a new file that replaces it.
+  // Later frames, even damaged ones, are dropped. Errors: std::runtime_error, also if saved frames are
+  // missing or differ.
   FieldsFile(const std::filesystem::path&, const FrameShape&, double ms_per_tu, std::size_t expected_frames,
-             const Kept&);
+             const Saved&);
 
   void append(const solver::Frame&);
   std::size_t frames() const { return frames_; }
-  Kept kept() const { return {frames_, digest_}; }
+  Saved saved() const { return {frames_, digest_}; }
   // All frames are on the disk when this returns.
   void sync();
 

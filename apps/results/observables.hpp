@@ -1,4 +1,4 @@
-// Numbers and series that a finished run left.
+// Numbers and series of a finished run.
 #pragma once
 
 #include <span>

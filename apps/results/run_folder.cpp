@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What an earlier run may have left. Nothing else in the folder is touched.
+// Files of an earlier run. Nothing else in the folder is touched.
 constexpr std::array file_names{"summary.json", "manifest.json", "fields.h5",         "fields.xdmf",
                                 "probes.csv",   "beats.csv",     "tips.csv",          "trajectories.csv",
                                 "sources.csv",  "area.csv",      "element_areas.csv", "maps.h5"};
@@ -67,7 +67,7 @@ void remove_results(const fs::path& folder) {
   }
 }
 
-// What the file system has against the folder is the user's to mend.
+// An error of the file system is the user's to mend.
 template <class Action>
 void with_folder(const fs::path& folder, const Action& action) {
   try {
@@ -90,7 +90,7 @@ std::string element_areas_header(const FrameShape& shape) {
   return header + '\n';
 }
 
-// For one run at a time; it ends with its owner, however that ends.
+// Held by one run at a time. The system releases it when the process ends, however it ends.
 class FolderLock {
  public:
   // Errors: InputError where another run has it.
@@ -155,14 +155,14 @@ struct RunFolder::Impl {
       xdmf.emplace(description, shape, "fields.h5");
     } else {
       fields.emplace(path, shape, ms_per_tu, expected,
-                     FieldsFile::Kept{mark.at("fields").at("frames"), mark.at("fields").at("digest")});
+                     FieldsFile::Saved{mark.at("fields").at("frames"), mark.at("fields").at("digest")});
       xdmf.emplace(description, shape, "fields.h5", mark.at("bytes").at("fields.xdmf").get<std::uintmax_t>());
     }
   }
 
-  nlohmann::json kept_fields() const {
+  nlohmann::json saved_fields() const {
     if (!fields) return nullptr;
-    return {{"frames", fields->kept().frames}, {"digest", fields->kept().digest}};
+    return {{"frames", fields->saved().frames}, {"digest", fields->saved().digest}};
   }
 
   fs::path picture_path(std::size_t number) const {
@@ -180,7 +180,7 @@ struct RunFolder::Impl {
       bytes["fields.xdmf"] = xdmf->sync();
     }
     for (; synced_pictures < pictures; ++synced_pictures) sync_file(picture_path(synced_pictures));
-    return {{"bytes", bytes}, {"fields", kept_fields()}, {"frames", pictures}};
+    return {{"bytes", bytes}, {"fields", saved_fields()}, {"frames", pictures}};
   }
 
   fs::path folder;

@@ -1,4 +1,4 @@
-// What a run leaves in its folder; file names and columns are a contract (apps/results/README.md).
+// The files of a run; file names and columns are a contract (apps/results/README.md).
 #pragma once
 
 #include <filesystem>
@@ -25,12 +25,12 @@ class RunFolder final : public solver::OutputSink {
   // Errors: InputError where it holds something and `force` is false, or cannot be written.
   RunFolder(std::filesystem::path folder, const solver::Scene&, bool force, bool quiet);
   // Resumes a folder from a mark: everything after it is cut off.
-  // Errors: InputError where a file that the mark speaks of is not there or shorter, or the mark is none.
+  // Errors: InputError if a file of the mark is missing or shorter, or if the mark is invalid.
   RunFolder(std::filesystem::path folder, const solver::Scene&, const std::string& mark, bool quiet);
   ~RunFolder() override;
 
   void write_manifest(const nlohmann::json& effective_configuration);
-  // `failure`: what ended the run early, in words. May be called more than once.
+  // `failure`: the error that ended the run early. May be called more than once.
   void write_summary(const solver::RunSummary&, const std::optional<std::string>& failure);
 
   void fields(const solver::Frame&) override;

@@ -1,4 +1,4 @@
-// What a run left in its folder, read back: by pages and figures that are made of finished runs.
+// Reads the files of a run, for pages and figures.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace myowave::apps {
 struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::size_t left_out = 0;  // rows that are not whole
+  std::size_t left_out = 0;  // incomplete rows
 
   bool has(std::string_view column) const;
   // Errors, here and below: std::out_of_range that names the column and those there are.

@@ -9,11 +9,12 @@
 
 namespace myowave::apps {
 
-// What begins or ends a trajectory, as the files say it; `with_run`: of what the run begins or ends.
+// The event at the start or end of a trajectory, as files name it. `with_run`: the word for the start or
+// end of the run.
 const char* event_name(solver::TipEvent, const char* with_run);
 
-// Keys keep the order they are written in. null stands where there is nothing to tell; nan and inf
-// never appear. `deforms`: false leaves `mechanics` null.
+// Keys keep the order they are written in. A missing value is null; nan and inf never appear. `deforms`:
+// false leaves `mechanics` null.
 nlohmann::ordered_json summary_json(const solver::RunSummary&, bool deforms,
                                     const std::optional<std::string>& failure);
 

@@ -53,7 +53,7 @@ std::vector<const SweepRun*> runs_of(const SweepPlan& plan, const Shard& shard) 
   return runs;
 }
 
-// What is done, failed and to do, of the runs of a shard.
+// Runs of a shard that are done, failed and to do.
 struct Work {
   std::vector<const SweepRun*> pending;
   std::size_t done = 0, failed = 0, other_revision = 0;
@@ -125,7 +125,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-// Scenes of one kind take about as long for a step.
+// Scenes of one kind take about the same time per step.
 std::string kind_of(const solver::Scene& scene) {
   return fmt::format("{}x{} {} {} {}", scene.grid.rows, scene.grid.columns, scene.mechanics.has_value(),
                      scene.mechanics ? scene.mechanics->cells_per_element : 0, int(scene.precision));

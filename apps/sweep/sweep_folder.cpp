@@ -72,9 +72,9 @@ void SweepFolder::prepare(const SweepPlan& plan) const {
     if (fs::exists(path_) && !fs::is_directory(path_))
       throw InputError(
           fmt::format("{} is a file; a sweep needs a folder: choose another with --out", path_.string()));
-    // A sweep that was killed at its very beginning has left its folders and no sweep.json.
-    const bool begun = fs::is_directory(path_ / "records");
-    if (fs::exists(path_) && !fs::is_empty(path_) && !is_sweep() && !begun)
+    // A sweep killed at its start leaves folders without sweep.json.
+    const bool started = fs::is_directory(path_ / "records");
+    if (fs::exists(path_) && !fs::is_empty(path_) && !is_sweep() && !started)
       throw InputError(fmt::format("{} holds something else than a sweep: choose another folder with --out",
                                    path_.string()));
     for (const char* part : {"records", "locks", "states"}) fs::create_directories(path_ / part);

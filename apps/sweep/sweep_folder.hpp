@@ -1,4 +1,4 @@
-// The folder of a sweep: where what is, and its sweep.json.
+// The folder of a sweep: its paths and its sweep.json.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace myowave::apps {
 
-// A plan as a sweep's folder keeps it: what tables and reports need.
+// The plan that sweep.json stores for tables and reports.
 struct StoredPlan {
   struct StoredAxis {
     std::string key;

@@ -26,11 +26,11 @@ class MemberSink final : public solver::OutputSink {
 
   void progress(const solver::Progress& now) override {
     if (given_up_) throw solver::Interrupted("another run of the sweep stopped it");
-    // A spiral that is settled for the user's cache is a run of its own, which nobody else asks to stop.
+    // Settling a spiral for the cache is a run of its own without stop flag.
     if (now.stage.kind == solver::RunStage::Kind::settling && stop_requested())
       throw solver::Interrupted("stopped");
     if (progress_ != nullptr && now.stage.kind == solver::RunStage::Kind::scene && now.t_end > 0)
-      progress_->come(index_, now.t / now.t_end);
+      progress_->advance(index_, now.t / now.t_end);
   }
 
  private:
@@ -107,7 +107,7 @@ class Members {
     }
     const std::lock_guard lock(mutex_);
     records_.append(record_json(run, summary, plan_.observables, failure));
-    // Only now: a kill between the two leaves a checkpoint too many, not a record too few.
+    // After the record: a kill between the two leaves a surplus checkpoint, never a missing record.
     std::error_code ignored;
     fs::remove_all(folder_.checkpoints(run.id), ignored);
     ++counts_.done;
@@ -141,7 +141,7 @@ class Members {
 
   // Not from a checkpoint: the files of the folder would have to be resumed too.
   void run_into_folder(const SweepRun& run, const solver::Execution& execution, solver::RunSummary& summary) {
-    const std::lock_guard one_folder(folder_mutex_);  // HDF5 is not for several threads at once
+    const std::lock_guard one_folder(folder_mutex_);  // HDF5 is not thread-safe
     RunFolder sink(folder_.run_folder(run.id), run.scene, true, true);
     sink.write_manifest(effective_configuration(run.scene));
     try {
@@ -153,7 +153,7 @@ class Members {
     sink.write_summary(summary, std::nullopt);
   }
 
-  // The same bits as solver::run() on the scene.
+  // Bitwise identical to solver::run() on the scene.
   void go(const SweepRun& run, solver::OutputSink& sink, solver::RunSummary& summary,
           const solver::RunControl& how) {
     // A checkpoint has the state and the warnings of the preconditions.

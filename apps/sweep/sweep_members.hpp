@@ -9,9 +9,9 @@
 
 namespace myowave::apps {
 
-// Does the given runs, `jobs` at once, and appends a record of each. A run whose numerics fail, or whose
-// state cannot be made, is a record too. `counts` is kept current. Errors: Interrupted, after the runs under
-// way have kept checkpoints, from which the next call goes on; std::runtime_error where the machine fails.
+// Runs the given members, `jobs` in parallel, and appends a record of each, also if its numerics or its
+// initial state fail. Updates `counts`. Errors: Interrupted, after unfinished runs have saved checkpoints,
+// from which the next call resumes; std::runtime_error if the machine fails.
 void do_members(const SweepPlan&, const std::vector<const SweepRun*>&, const SweepFolder&, int jobs,
                 bool quiet, RecordFile&, Counts& counts);
 

@@ -33,7 +33,7 @@ SweepProgress::~SweepProgress() {
   if (open_) fmt::print(stderr, "\n");
 }
 
-void SweepProgress::come(std::size_t index, double fraction) {
+void SweepProgress::advance(std::size_t index, double fraction) {
   const std::lock_guard lock(mutex_);
   fractions_[index] = std::clamp(fraction, 0.0, 0.999);  // 1: done
   show(false);

@@ -1,5 +1,4 @@
-// The progress of many runs at once, on stderr: a line that is rewritten on a terminal, now and then a plain
-// one elsewhere.
+// Progress of parallel runs on stderr: one line that is rewritten on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -18,7 +17,7 @@ struct Counts {
 std::string sweep_progress_text(const Counts&, std::size_t runs, std::size_t running, double fraction,
                                 double seconds);
 
-// For all threads at once.
+// Thread-safe.
 class SweepProgress {
  public:
   SweepProgress(std::size_t runs, bool quiet);
@@ -26,8 +25,8 @@ class SweepProgress {
   SweepProgress(const SweepProgress&) = delete;
   SweepProgress& operator=(const SweepProgress&) = delete;
 
-  // How far run `index` has come, 0 to 1.
-  void come(std::size_t index, double fraction);
+  // Progress of run `index`, 0 to 1.
+  void advance(std::size_t index, double fraction);
   void done(std::size_t index, const Counts&);
 
  private:

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
-// {"check":"0123456789abcdef",REST, where the check is of REST.
+// {"check":"0123456789abcdef",REST; the checksum is that of REST.
 constexpr std::string_view before_check = "{\"check\":\"", after_check = "\",";
 constexpr std::size_t check_length = 16;
 
@@ -46,7 +46,7 @@ bool is_intact(std::string_view line) {
   return !rest.empty() && line.substr(before_check.size(), check_length) == content_hash(rest);
 }
 
-// Empty where the line is a record.
+// Empty if the line is a record.
 std::string why_no_record(std::string_view line, json& record) {
   if (!is_intact(line)) return "is damaged: its checksum does not fit";
   record = json::parse(line, nullptr, false);
@@ -129,8 +129,8 @@ std::string Shard::name() const { return fmt::format("shard_{}_of_{}", number, c
 json record_json(const SweepRun& run, const solver::RunSummary& summary,
                  const std::vector<std::string>& observables, const std::optional<std::string>& failure) {
   const json all = summary_json(summary, run.scene.mechanics.has_value(), failure);
-  json kept = json::object();
-  for (const auto& name : observables) kept[name] = all["observables"][name];
+  json selected = json::object();
+  for (const auto& name : observables) selected[name] = all["observables"][name];
   return {
       {"schema", sweep_schema},
       {"id", run.id},
@@ -139,7 +139,7 @@ json record_json(const SweepRun& run, const solver::RunSummary& summary,
       {"failure", all["failure"]},
       {"t", all["t"]},
       {"steps", all["steps"]},
-      {"observables", std::move(kept)},
+      {"observables", std::move(selected)},
       {"mechanics", all["mechanics"]},
       {"substeps", all["substeps"]},
       {"warnings", all["warnings"]},
@@ -175,7 +175,7 @@ bool of_this_revision(const json& record) { return record["program"]["git_hash"]
 
 namespace {
 
-// Somebody who only asks for the owner has it for an instant.
+// owner_of() holds the lock for an instant.
 bool locks(int file) {
   for (int tries = 0; tries < 20; ++tries) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
@@ -195,7 +195,7 @@ ShardLock::ShardLock(const fs::path& path) : file_(open_for_writing(path, O_RDWR
   }
   const std::string owner = fmt::format("process {} on {} since {:%Y-%m-%dT%H:%M:%SZ}", getpid(), host_name(),
                                         fmt::gmtime(std::time(nullptr)));
-  // Only words for others; the lock itself is the system's.
+  // For the messages of other processes only; the system holds the lock itself.
   if (ftruncate(file_, 0) != 0 || pwrite(file_, owner.data(), owner.size(), 0) < 0) {
     const int error = errno;
     close(file_);
@@ -240,7 +240,7 @@ void RecordFile::append(const json& record) {
 }
 
 void RecordFile::require_in_place() const {
-  // What is written into a file that was removed is lost without an error.
+  // Writes into a removed file are lost without an error.
   if (!is_in_place(file_, path_)) refuse("the file was removed while the sweep ran");
 }
 

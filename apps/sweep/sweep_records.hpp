@@ -25,39 +25,38 @@ struct Shard {
 // The layout of records, and of sweep.json.
 inline constexpr int sweep_schema = 1;
 
-// A run that ended, or failed. Of the observables those that are kept.
+// Record of a finished or failed run with the given observables.
 nlohmann::ordered_json record_json(const SweepRun&, const solver::RunSummary&,
                                    const std::vector<std::string>& observables,
                                    const std::optional<std::string>& failure);
 
-// With its checksum and the end of the line.
+// With checksum and newline.
 std::string record_line(const nlohmann::ordered_json&);
 
 struct Records {
-  // By id. Of several of a run: one that did not fail before one that did, then one of this revision of the
-  // program, then the last.
+  // By id. Duplicate records: prefer the successful one, then that of this revision, then the newest.
   std::map<std::string, nlohmann::ordered_json> by_id;
-  // What is no record, with its file and line and what to do.
+  // Invalid lines, with file, line number and what to do.
   std::vector<std::string> refused;
 };
 
-// The whole records of all shards. A last line without an end is one that a kill cut short, and is left out
-// without a word. Errors: std::runtime_error where a file cannot be read.
+// The complete records of all shards. An incomplete last line, which a kill leaves, is skipped without a
+// warning. Errors: std::runtime_error if a file cannot be read.
 Records read_records(const std::filesystem::path& sweep_folder);
 
 bool failed(const nlohmann::ordered_json& record);
 bool of_this_revision(const nlohmann::ordered_json& record);
 
-// A lock that ends with its owner, however that ends.
+// A lock on a shard. The system releases it when the process ends, however it ends.
 class ShardLock {
  public:
-  // Errors: std::runtime_error that tells the owner where there is one, or why the file cannot be written.
+  // Errors: std::runtime_error with the owner of the lock, or with the reason why the file cannot be written.
   explicit ShardLock(const std::filesystem::path& file);
   ~ShardLock();
   ShardLock(const ShardLock&) = delete;
   ShardLock& operator=(const ShardLock&) = delete;
 
-  // The owner's own words; empty where nobody holds the lock.
+  // Process and host of the owner; empty if the lock is free.
   static std::string owner_of(const std::filesystem::path& file);
 
  private:
@@ -67,8 +66,8 @@ class ShardLock {
 // The records of one shard, for the process that holds its lock.
 class RecordFile {
  public:
-  // Cuts off what a kill left of a line.
-  // Errors, also of append: std::runtime_error "cannot write FILE: reason"; the records before are whole.
+  // Cuts off an incomplete last line.
+  // Errors, also of append: std::runtime_error "cannot write FILE: reason"; earlier records are intact.
   explicit RecordFile(std::filesystem::path);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using solver::InputError;
 
-// sbatch puts numbers in the place of %A and the like.
+// sbatch replaces %A and the like by numbers.
 std::string without_patterns(const std::string& path) {
   std::string result;
   for (const char letter : path) result += letter == '%' ? "%%" : std::string(1, letter);
@@ -45,7 +45,7 @@ std::string slurm_script(const fs::path& program, const fs::path& file, const fs
   const std::string gpus = options.gpus > 0 ? fmt::format("#SBATCH --gpus-per-task={}\n", options.gpus) : "";
   return fmt::format(
       R"(#!/bin/bash
-# One shard of a sweep a task. Submit it again whenever the table is not whole: what is done is not done again.
+# Each task runs one shard of a sweep. Submit it again if runs are missing: finished runs are not repeated.
 #SBATCH --job-name=myowave_sweep
 #SBATCH --array=1-{tasks}
 #SBATCH --ntasks=1
@@ -60,8 +60,8 @@ export OMP_NUM_THREADS={cpus} OMP_PROC_BIND=false
 {command} &
 child=$!
 
-# Slurm tells this shell alone: USR1 two minutes before the time limit, TERM where the job is cancelled or makes
-# room for another. The runs under way then keep checkpoints.
+# Slurm signals this shell only: USR1 two minutes before the time limit, TERM if the job is cancelled or
+# preempted. The unfinished runs then save checkpoints.
 cancelled=no
 trap 'kill -USR1 "$child"' USR1
 trap 'cancelled=yes; kill -TERM "$child"' TERM
@@ -70,7 +70,7 @@ trap 'cancelled=yes; kill -TERM "$child"' TERM
 status=0
 while wait "$child"; status=$?; kill -0 "$child" 2>/dev/null; do :; done
 
-# 75: to be gone on with.
+# 75: stopped on request, to be resumed.
 if [ "$status" -eq 75 ] && [ "$cancelled" = no ]; then
   scontrol requeue "$SLURM_JOB_ID"
 fi
@@ -83,7 +83,7 @@ exit "$status"
 
 std::string parallel_line(const fs::path& program, const fs::path& file, const fs::path& folder,
                           const SlurmOptions& options) {
-  // --resume-failed: the same line again does the shards that are not done.
+  // --resume-failed: repeating the line runs the unfinished shards.
   return fmt::format(
       "seq {0} | OMP_NUM_THREADS={1} OMP_PROC_BIND=false parallel --joblog {2} --resume-failed --jobs $(( "
       "($(nproc) + {3}) / {1} )) {4}",

@@ -14,12 +14,12 @@ struct SlurmOptions {
   int gpus = 0;                   // GPUs a task
 };
 
-// Runs shard $SLURM_ARRAY_TASK_ID of the sweep with `program`; on the time limit or another signal the runs
-// under way keep a checkpoint, and the task goes back into the queue.
+// Runs shard $SLURM_ARRAY_TASK_ID of the sweep with `program`. At the time limit or another signal the runs
+// save checkpoints, and the task is queued again.
 std::string slurm_script(const std::filesystem::path& program, const std::filesystem::path& sweep_file,
                          const std::filesystem::path& sweep_folder, const SlurmOptions&);
 
-// The same shards on one machine, as many at once as it has cores for.
+// The same shards on one machine, in parallel as far as it has cores.
 std::string parallel_line(const std::filesystem::path& program, const std::filesystem::path& sweep_file,
                           const std::filesystem::path& sweep_folder, const SlurmOptions&);
 

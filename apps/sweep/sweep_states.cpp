@@ -17,20 +17,20 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::json;
 
-// HDF5 is not for several threads at once.
+// HDF5 is not thread-safe.
 std::mutex& hdf5() {
   static std::mutex mutex;
   return mutex;
 }
 
-// Ta is computed whether this scene needs it or not: a contracting run and its rigid partner, which does
-// without, then go on from one state.
+// Ta is always computed, so that a contracting run and its rigid partner, which needs no Ta, start from one
+// state.
 solver::Scene with_tension(solver::Scene scene) {
   scene.output.tension = true;
   return scene;
 }
 
-// What the preconditions had to tell beside their state.
+// Results of the preconditions besides their state.
 json notes_json(const solver::RunSummary& summary) {
   return {{"substepped_steps", summary.substepped_steps},
           {"largest_substeps", summary.largest_substeps},

@@ -1,5 +1,5 @@
-// The states that runs of a sweep start from. Preconditions that several runs have in common are computed
-// once and kept in the sweep's folder.
+// The states that runs of a sweep start from. Preconditions that several runs share are computed once
+// and saved in the folder of the sweep.
 #pragma once
 
 #include <filesystem>
@@ -16,18 +16,18 @@ std::string state_definition(const solver::Scene&);
 
 class SweepStates {
  public:
-  // `folder` is where the states are kept. Runs of the plan whose states are the same share one.
+  // `folder`: of the saved states. Runs of the plan with equal states share one.
   SweepStates(std::filesystem::path folder, const SweepPlan&);
 
-  // Whether the run goes on from a state that it shares.
+  // Whether the run starts from a shared state.
   bool is_shared(const SweepRun&) const;
 
   // One run of each shared state among the given ones.
   std::vector<const SweepRun*> one_of_each(const std::vector<const SweepRun*>&) const;
 
-  // The state that solver::run_preconditioned() goes on from; of `summary` it fills in what
-  // run_preconditions() would, without the time where the state was there. For all threads at once.
-  // Errors: those of solver::run; std::runtime_error that names the file where the state cannot be kept.
+  // The state that solver::run_preconditioned() starts from. Fills in the same parts of `summary` as
+  // run_preconditions(); the time only if the state had to be computed. Thread-safe.
+  // Errors: those of solver::run; std::runtime_error with the file if the state cannot be saved.
   solver::InitialState shared(const SweepRun&, solver::OutputSink&, solver::RunSummary& summary,
                               const solver::RunControl&) const;
 

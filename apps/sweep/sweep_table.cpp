@@ -17,8 +17,8 @@ struct Column {
   const char* place;  // in a record
 };
 
-// Those that depend on the machine and the moment begin with wall or cell_steps; all others are the same to
-// the bit wherever and whenever the sweep is run.
+// Columns that start with wall or cell_steps depend on the machine and its load. All others are bitwise
+// identical on every machine with the same program.
 constexpr std::array columns_of_records{
     Column{"outcome", "/outcome"},
     Column{"breakup_tu", "/observables/breakup_tu"},
@@ -62,7 +62,7 @@ constexpr std::array columns_of_records{
 };
 
 // "/observables/period/mean" is of "period".
-bool is_kept(const Column& column, const std::vector<std::string>& observables) {
+bool is_selected(const Column& column, const std::vector<std::string>& observables) {
   constexpr std::string_view before = "/observables/";
   std::string_view place = column.place;
   if (!place.starts_with(before)) return true;
@@ -109,10 +109,10 @@ SweepTable read_table(const std::filesystem::path& path) {
   Records records = read_records(path);
   table.refused = std::move(records.refused);
   for (const auto& axis : table.plan.axes) table.columns.push_back(axis.key);
-  std::vector<Column> kept;
+  std::vector<Column> selected;
   for (const Column& column : columns_of_records)
-    if (is_kept(column, table.plan.observables)) kept.push_back(column);
-  for (const Column& column : kept) table.columns.emplace_back(column.name);
+    if (is_selected(column, table.plan.observables)) selected.push_back(column);
+  for (const Column& column : selected) table.columns.emplace_back(column.name);
   for (std::size_t n = 0; n < table.plan.runs.size(); ++n) {
     const auto& run = table.plan.runs[n];
     const auto record = records.by_id.find(run.id);
@@ -125,7 +125,7 @@ SweepTable read_table(const std::filesystem::path& path) {
     std::vector<json> row;
     for (std::size_t axis = 0; axis < run.at.size(); ++axis)
       row.push_back(table.plan.axes[axis].values[run.at[axis]]);
-    for (const Column& column : kept) row.push_back(cell(record->second, column.place));
+    for (const Column& column : selected) row.push_back(cell(record->second, column.place));
     table.cells.push_back(std::move(row));
     table.runs.push_back(n);
   }

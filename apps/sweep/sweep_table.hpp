@@ -17,13 +17,13 @@ struct SweepTable {
   std::vector<std::size_t> runs;                           // of each row, its number in the plan
   std::size_t missing = 0;                                 // runs without a record
   std::size_t failed = 0, other_revision = 0;
-  std::vector<std::string> refused;  // lines of the files that are no records
+  std::vector<std::string> refused;  // invalid lines of the files
 
   // Errors: std::out_of_range where there is no such column.
   std::size_t column(std::string_view name) const;
 };
 
-// Rows in the order of the plan. Errors: InputError where the folder is no sweep's.
+// Rows in the order of the plan. Errors: InputError if the folder is not that of a sweep.
 SweepTable read_table(const std::filesystem::path& sweep_folder);
 
 // RFC 4180: cells with commas or quotes stand in quotes. An empty cell: none.

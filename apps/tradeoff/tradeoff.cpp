@@ -57,7 +57,7 @@ void require_counts(const TradeoffRequest& request) {
     throw solver::InputError(fmt::format("--budget must be seconds > 0, not {}", *request.budget));
 }
 
-// A scene and what is put over it.
+// A scene and its overrides.
 class Variants {
  public:
   explicit Variants(SceneSource source) : source_(std::move(source)) {}
@@ -117,7 +117,7 @@ class Experiment {
         sampling_(sampling_of(study.own)),
         start_(start_of(study.own)) {}
 
-  // Errors: NumericalFailure where no level comes to its end; Interrupted.
+  // Errors: NumericalFailure if no level reaches its end; Interrupted.
   void run_reference(const std::vector<int>& levels) {
     std::vector<int> done;
     std::vector<Measures> measures;
@@ -149,8 +149,8 @@ class Experiment {
     study_.reference = make_reference(std::move(done), measures, from_starts);
   }
 
-  // In rounds of all settings, each round in another order, so that what changes with time in the machine's
-  // speed meets all alike. The rounds of a chaotic scene are its starts. Errors: Interrupted.
+  // Interleaved: each round runs all settings in another order, so that a drift of the machine's speed
+  // affects all alike. The rounds of a chaotic scene are its starts. Errors: Interrupted.
   void run_settings() {
     std::mt19937 engine(20040601);
     double spent = 0;
@@ -267,7 +267,7 @@ std::string errors_text(const Errors& errors, const std::vector<ErrorTarget>& ta
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// A target that the reference itself does not reach cannot be met for certain.
+// A target below the uncertainty of the reference cannot be verified.
 void warn_of_uncertainty(const Study& study, const std::vector<ErrorTarget>& targets) {
   for (const auto& [name, largest] : targets) {
     const auto value = study.reference->values.find(name);
@@ -278,7 +278,7 @@ void warn_of_uncertainty(const Study& study, const std::vector<ErrorTarget>& tar
   }
 }
 
-// Writes target.toml. Errors: NumericalFailure where none meets the targets.
+// Writes target.toml. Errors: NumericalFailure if no setting meets the targets.
 void write_target(const Study& study, const Variants& variants, const std::vector<ErrorTarget>& targets,
                   const fs::path& file) {
   std::vector<Candidate> candidates;

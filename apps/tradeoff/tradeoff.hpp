@@ -1,4 +1,4 @@
-// `myowave tradeoff`: a scene over its dials of accuracy, each setting's cost against its error.
+// `myowave tradeoff`: runs a scene with many accuracy settings and compares their cost with their error.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct TradeoffRequest {
   std::string axes;                    // empty: all dials, with their usual values
   bool product = false;                // all combinations
   std::vector<std::string> targets;
-  std::optional<double> budget;  // s of measured runs, after which no setting is begun
+  std::optional<double> budget;  // s of measured runs, after which no setting is started
   int repetitions = 3;
   std::string levels = "2,3,4";
   bool refine_elements = false;  // of the reference, as its grids
@@ -22,10 +22,10 @@ struct TradeoffRequest {
   bool force = false;
 };
 
-// Runs the reference and all settings one after the other and leaves the table, its plots and, where there
-// are targets, target.toml in the folder.
-// Errors: InputError; NumericalFailure where no level of the reference came to its end or no setting meets
-// the targets; Interrupted. What was measured until then is in the folder.
+// Runs the reference and all settings sequentially. Writes the table, its plots and, if there are targets,
+// target.toml into the folder.
+// Errors: InputError; NumericalFailure where no level of the reference reached its end or no setting meets
+// the targets; Interrupted. The measurements so far are in the folder.
 void tradeoff(const TradeoffRequest&);
 
 // Prints the dials with their values and the presets.

@@ -71,7 +71,7 @@ std::optional<double> relative_l2(std::span<const double> a, std::span<const dou
   return percent_of(rms(difference), rms(b));
 }
 
-// What is left of V on a sheet that has come to rest is no wave.
+// The small V that remains on a quiescent sheet is not a wave.
 std::optional<double> field_error(std::span<const double> a, std::span<const double> b) {
   constexpr double at_rest = 1e-3;
   return rms(b) < at_rest ? std::nullopt : relative_l2(a, b);

@@ -1,4 +1,5 @@
-// The errors of settings against a reference, which of them pay, and which setting meets a target.
+// Errors of settings against a reference, the Pareto front of cost and error, and the setting that meets a
+// target.
 #pragma once
 
 #include <map>
@@ -14,7 +15,7 @@
 namespace myowave::apps {
 
 struct Observable {
-  // An event is told by its time, which a run need not have.
+  // An event has a time, or does not occur.
   enum class Kind { relative, absolute, event, curve, field_half, field_end, tips };
   // What is compared of a chaotic scene: nothing of a single path, statistics against their spread.
   enum class Chaos { same, left_out, statistic, statistic_only };
@@ -25,7 +26,7 @@ struct Observable {
 };
 
 std::span<const Observable> observables();
-// Null where there is none of this name.
+// Null if there is no observable of this name.
 const Observable* find_observable(std::string_view name);
 
 // Of a against b, in the observable's unit: in % of b, for curves and fields by the L2 norm, of an area curve
@@ -44,7 +45,7 @@ struct ReferenceValue {
 };
 
 struct Reference {
-  std::vector<int> levels;  // those that came to their end
+  std::vector<int> levels;  // those that reached their end
   bool chaotic = false;
   Measures best;  // the finest level, its numbers extrapolated or means over starts
   std::map<std::string, ReferenceValue, std::less<>> values;
@@ -71,19 +72,19 @@ using Errors = std::map<std::string, Error, std::less<>>;
 // Of one run, or of one from each start of a chaotic scene.
 Errors errors_of(std::span<const Measures> runs, const Reference&);
 
-// Which points no other beats: none is at most as dear and at most as wrong, and less in one. What is not
-// finite never is.
+// Pareto front: true for points that no other point dominates in cost and error. Points that are not finite
+// are never on it.
 std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error);
 
-// A setting that was run: what it costs, s, and its errors.
+// A setting that was run: its cost (s) and its errors.
 struct Candidate {
   double cost = 0;
   Errors errors;
 };
 
-// The cheapest that meets all targets. Empty where none does.
+// The cheapest setting that meets all targets. Empty if there is none.
 std::optional<std::size_t> choose(std::span<const Candidate>, std::span<const ErrorTarget>);
-// The one whose largest ratio of error to target is the least, of those that have all these errors.
+// The setting with the smallest largest ratio of error to target, among those that have all these errors.
 std::optional<std::size_t> nearest_to(std::span<const Candidate>, std::span<const ErrorTarget>);
 
 }  // namespace myowave::apps

@@ -18,7 +18,7 @@ namespace {
 
 solver::RunControl stoppable() { return {.stop = &stop_requested()}; }
 
-// Elsewhere than on a terminal a line a run is enough.
+// Without a terminal, one line per run.
 bool is_quiet() { return isatty(STDERR_FILENO) == 0; }
 
 // First action potential at each probe.

@@ -21,7 +21,7 @@ struct Measures {
   std::vector<solver::Tip> tips;                       // at the end
 };
 
-// When a scene is looked at, t.u.
+// When a scene is sampled, t.u.
 struct Sampling {
   double every = 1;  // areas and tips
   double half = 0;   // V, besides at the end
@@ -38,7 +38,7 @@ struct MeasuredRun {
 
 // A plane wave from one end of a rigid strip of 120 length units with the scene's cells, D, dt, dx, scheme
 // and precision: `cv` between the thirds (length units / t.u.) and `apd` in the middle (V > 0.1, t.u.).
-// Where there is no wave, neither is there.
+// Without a wave there is neither.
 // Errors: as solver::run.
 Measures measure_plane_wave(const solver::Scene&);
 

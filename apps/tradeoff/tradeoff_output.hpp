@@ -11,7 +11,7 @@
 
 namespace myowave::apps {
 
-// A setting and what came of it.
+// A setting and its results.
 struct Trial {
   Setting setting;
   std::optional<solver::Scene> scene{};              // empty: refused
@@ -34,7 +34,7 @@ struct Study {
   std::vector<ReferenceRun> reference_runs{};
   std::optional<Reference> reference{};
   std::vector<Trial> trials{};
-  std::string stopped{};  // why it is not whole
+  std::string stopped{};  // why it is incomplete
 };
 
 // Of the wall seconds or rates of a trial; nan where it was not run.
@@ -43,7 +43,7 @@ double median(std::vector<double> values);
 // By the name of the observable, of each trial. An error counts as no less than its uncertainty.
 std::map<std::string, std::vector<bool>, std::less<>> fronts_of(const Study&);
 
-// Removes what an earlier one left.
+// Removes the files of an earlier study.
 void remove_tradeoff(const std::filesystem::path& folder);
 
 // tradeoff.csv, tradeoff.json, error_NAME.png and .svg, index.html; documented in apps/tradeoff/README.md.

@@ -13,7 +13,7 @@ namespace myowave::apps {
 // A key of the scene that trades accuracy for speed.
 struct Dial {
   std::string_view key;
-  std::string_view values;  // tried where the user names none; of accuracy.dx in units of grid.dx
+  std::string_view values;  // default values; those of accuracy.dx in units of grid.dx
   bool elastic;             // no effect on a rigid sheet
   std::string_view doc;
 };

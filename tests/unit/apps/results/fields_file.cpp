@@ -111,19 +111,19 @@ TEST(FieldsFile, ResumesAfterTheFramesOfTheCheckpoint) {
     write_frames(folder, scene, 5);
     SyntheticFrames frames(scene);
     const auto path = folder / "torn.h5";
-    FieldsFile::Kept kept;
+    FieldsFile::Saved saved;
     {
       FieldsFile fields(path, shape, 10, 5);
       for (int n = 0; n < 4; ++n) {
         fields.append(frames.at(0.5 * n));
-        if (n == 2) kept = fields.kept();
+        if (n == 2) saved = fields.saved();
       }
     }
-    EXPECT_EQ(kept.frames, 3U);
+    EXPECT_EQ(saved.frames, 3U);
     std::ofstream(path, std::ios::app) << "a partial write before a kill";
     {
-      FieldsFile fields(path, shape, 10, 5, kept);
-      EXPECT_EQ(fields.kept().digest, kept.digest);
+      FieldsFile fields(path, shape, 10, 5, saved);
+      EXPECT_EQ(fields.saved().digest, saved.digest);
       for (int n = 3; n < 5; ++n) fields.append(frames.at(0.5 * n));
     }
     for (const char* name : {"time", "V", "r", "Ta", "nodes", "grid"}) {
@@ -133,9 +133,9 @@ TEST(FieldsFile, ResumesAfterTheFramesOfTheCheckpoint) {
       EXPECT_EQ(read_all(path, name, size), read_all(folder / "fields.h5", name, expected_size)) << name;
       EXPECT_EQ(size, expected_size);
     }
-    EXPECT_THROW(FieldsFile(path, shape, 10, 5, {3, kept.digest + 1}), std::runtime_error);
-    EXPECT_THROW(FieldsFile(path, shape, 10, 5, {6, kept.digest}), std::runtime_error);
-    EXPECT_THROW(FieldsFile(folder / "none.h5", shape, 10, 5, kept), std::runtime_error);
+    EXPECT_THROW(FieldsFile(path, shape, 10, 5, {3, saved.digest + 1}), std::runtime_error);
+    EXPECT_THROW(FieldsFile(path, shape, 10, 5, {6, saved.digest}), std::runtime_error);
+    EXPECT_THROW(FieldsFile(folder / "none.h5", shape, 10, 5, saved), std::runtime_error);
   }
 }
 
