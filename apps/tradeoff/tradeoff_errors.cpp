@@ -6,11 +6,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "apps/tradeoff/richardson.hpp"
+#include "solver/analysis/error_norms.hpp"
+#include "solver/analysis/richardson.hpp"
 #include "solver/analysis/statistics.hpp"
-#include "solver/base/lagrange.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -58,35 +57,14 @@ std::optional<double> percent_of(double difference, double of) {
   return of == 0 ? std::nullopt : std::optional(100 * std::abs(difference / of));
 }
 
-double rms(std::span<const double> values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
-}
-
-std::optional<double> relative_l2(std::span<const double> a, std::span<const double> b) {
-  if (a.empty() || a.size() != b.size()) return std::nullopt;
-  std::vector<double> difference(a.begin(), a.end());
-  for (std::size_t n = 0; n < a.size(); ++n) difference[n] -= b[n];
-  return percent_of(rms(difference), rms(b));
+std::optional<double> percent(std::optional<double> ratio) {
+  return ratio ? std::optional(100 * *ratio) : std::nullopt;
 }
 
 // The small V that remains on a quiescent sheet is not a wave.
 std::optional<double> field_error(std::span<const double> a, std::span<const double> b) {
   constexpr double at_rest = 1e-3;
-  return rms(b) < at_rest ? std::nullopt : relative_l2(a, b);
-}
-
-// By the cubic through the four points around t; the curve's times cover t.
-double value_at(const Measures::Curve& curve, double t) {
-  const auto& times = curve.t;
-  constexpr std::size_t points = 4;
-  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(times, t) - times.begin());
-  const std::size_t n = std::min(points, times.size());
-  const std::size_t first = std::min(after > points / 2 ? after - points / 2 : 0, times.size() - n);
-  const auto weights = solver::lagrange_weights(std::span(times).subspan(first, n), t);
-  return std::inner_product(weights.begin(), weights.end(),
-                            curve.value.begin() + static_cast<std::ptrdiff_t>(first), 0.0);
+  return solver::rms(b) < at_rest ? std::nullopt : percent(solver::relative_l2(a, b));
 }
 
 std::optional<double> curve_error(const Measures::Curve& a, const Measures::Curve& b) {
@@ -95,23 +73,9 @@ std::optional<double> curve_error(const Measures::Curve& a, const Measures::Curv
   for (std::size_t n = 0; n < a.t.size(); ++n) {
     if (a.t[n] > b.t.back()) break;
     seen.push_back(a.value[n] - 1);
-    expected.push_back(value_at(b, a.t[n]) - 1);
+    expected.push_back(solver::interpolate_cubic(b.t, b.value, a.t[n]) - 1);
   }
-  return relative_l2(seen, expected);
-}
-
-std::optional<double> tip_error(std::span<const solver::Tip> a, std::span<const solver::Tip> b) {
-  if (a.empty() || b.empty()) return std::nullopt;
-  double sum = 0;
-  for (const auto& expected : b) {
-    double nearest = infinite;
-    for (const auto& tip : a)
-      if (tip.charge == expected.charge)
-        nearest = std::min(nearest, std::hypot(tip.x - expected.x, tip.y - expected.y));
-    if (nearest == infinite) return std::nullopt;
-    sum += nearest;
-  }
-  return sum / static_cast<double>(b.size());
+  return percent(solver::relative_l2(seen, expected));
 }
 
 // In the unit of the error.
@@ -126,7 +90,7 @@ std::vector<double> spacings(std::span<const int> k) {
 }
 
 ReferenceValue limit_of(const Observable& one, std::span<const int> k, std::span<const double> values) {
-  const auto limit = richardson(spacings(k), values);
+  const auto limit = solver::richardson(spacings(k), values);
   return {{values.begin(), values.end()},
           limit.value,
           in_unit(one, limit.uncertainty, limit.value),
@@ -169,7 +133,7 @@ std::optional<ReferenceValue> finest_of(const Observable& one, std::span<const i
   if (!distances.empty()) reference.uncertainty = distances.back();
   if (distances.size() == 2) {
     const auto h = spacings(k);
-    reference.order = observed_order({h[0], h[1], h[2]}, distances[0], distances[1]);
+    reference.order = solver::observed_order({h[0], h[1], h[2]}, distances[0], distances[1]);
   }
   return reference;
 }
@@ -192,7 +156,7 @@ std::optional<double> error_of(const Observable& one, const Measures& a, const M
     case Kind::field_end:
       return field_error(a.V_end, b.V_end);
     case Kind::tips:
-      return tip_error(a.tips, b.tips);
+      return solver::tip_distance(a.tips, b.tips);
     case Kind::relative:
     case Kind::absolute:
     case Kind::event:

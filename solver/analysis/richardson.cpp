@@ -1,4 +1,4 @@
-#include "apps/tradeoff/richardson.hpp"
+#include "solver/analysis/richardson.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "solver/base/root_finding.hpp"
 
-namespace myowave::apps {
+namespace myowave::solver {
 
 std::optional<double> observed_order(const std::array<double, 3>& h, double first_difference,
                                      double second_difference) {
@@ -18,7 +18,7 @@ std::optional<double> observed_order(const std::array<double, 3>& h, double firs
   };
   if (!(seen >= ratio(smallest) && seen <= ratio(largest))) return std::nullopt;
   constexpr double tolerance = 1e-14;
-  return solver::bisect({smallest, largest}, tolerance, [&](double p) { return ratio(p) < seen; }).middle();
+  return bisect({smallest, largest}, tolerance, [&](double p) { return ratio(p) < seen; }).middle();
 }
 
 Extrapolated richardson(std::span<const double> h, std::span<const double> values) {
@@ -38,4 +38,4 @@ Extrapolated richardson(std::span<const double> h, std::span<const double> value
   return {finest - beyond, std::abs(beyond), order};
 }
 
-}  // namespace myowave::apps
+}  // namespace myowave::solver

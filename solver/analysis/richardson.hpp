@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace myowave::apps {
+namespace myowave::solver {
 
 // p of v_k = v* + C h_k^p, from the differences v_1 - v_2 and v_2 - v_3 (or their norms) at spacings
 // h_1 > h_2 > h_3 of any ratio. None where the values do not move one way, or p is not within 0.25 to 8.
@@ -23,4 +23,4 @@ struct Extrapolated {
 // one before. Levels from coarse to fine, at least one.
 Extrapolated richardson(std::span<const double> h, std::span<const double> values);
 
-}  // namespace myowave::apps
+}  // namespace myowave::solver
