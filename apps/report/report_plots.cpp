@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/report/report_run.hpp"
+#include "apps/results/observable_table.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -101,6 +102,28 @@ std::vector<Series> beat_series(const CsvTable& beats, const json& configuration
 
 using Rows = std::vector<std::size_t>;
 
+// "tips" of "tips/mean", "core_radius" of "core/radius".
+std::string file_name(const ObservableRow& row) {
+  std::string name(row.path.ends_with("/mean") ? row.group() : row.path);
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
+// The value of a run with its standard deviation, if it has one.
+void add_point(Series& series, const ReportRun& run, const ObservableRow& row, double x) {
+  const auto& summary = run.results().summary();
+  const auto number = [&summary](std::string_view path) {
+    const nlohmann::ordered_json::json_pointer at(fmt::format("/observables/{}", path));
+    return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>() : none;
+  };
+  const double value = number(row.path), sd = number(fmt::format("{}/sd", row.group()));
+  if (!std::isfinite(value)) return;
+  const double factor = row.unit.text == "t.u." ? run.ms_per_tu() : row.unit.factor;
+  series.x.push_back(x);
+  series.y.push_back(factor * value);
+  series.error.push_back(row.path.ends_with("/mean") && std::isfinite(sd) ? factor * sd : 0);
+}
+
 }  // namespace
 
 std::vector<NamedPlot> ReportRun::plots() const {
@@ -165,7 +188,6 @@ std::vector<NamedPlot> ReportRun::plots() const {
 }
 
 std::vector<NamedPlot> sweep_plots(const std::vector<ReportRun>& runs) {
-  std::map<std::string, std::vector<json>> values;
   std::set<std::string> names;
   std::vector<json> flat;
   for (const ReportRun& run : runs) {
@@ -190,25 +212,20 @@ std::vector<NamedPlot> sweep_plots(const std::vector<ReportRun>& runs) {
   std::string key = varied.substr(1);
   std::ranges::replace(key, '/', '.');
   std::vector<NamedPlot> plots;
-  for (const auto& [name, label, unit] :
-       {std::tuple{"period", "period", "ms"}, {"tips", "phase singularities", ""}}) {
+  for (const ObservableRow& row : observable_table()) {
+    if (row.curve.empty()) continue;
     Series series{.name = "", .mark = Mark::points};
-    for (std::size_t n = 0; n < runs.size(); ++n) {
-      const json summary = runs[n].results().summary();
-      const json::json_pointer at(fmt::format("/observables/{}", name));
-      if (!summary.contains(at) || !summary[at]["mean"].is_number()) continue;
-      const double factor = std::string(unit) == "ms" ? runs[n].ms_per_tu() : 1;
-      series.x.push_back(flat[n][varied].get<double>());
-      series.y.push_back(factor * summary[at]["mean"].get<double>());
-      series.error.push_back(summary[at]["sd"].is_number() ? factor * summary[at]["sd"].get<double>() : 0);
-    }
+    for (std::size_t n = 0; n < runs.size(); ++n)
+      add_point(series, runs[n], row, flat[n][varied].get<double>());
     if (series.x.size() < 2) continue;
-    plots.push_back({fmt::format("sweep_{}", name),
-                     "Mean and standard deviation of each run.",
-                     {.title = fmt::format("{} against {}", label, key),
+    const bool spread = std::ranges::any_of(series.error, [](double sd) { return sd > 0; });
+    if (!spread) series.error.clear();
+    plots.push_back({"sweep_" + file_name(row),
+                     spread ? "Mean and standard deviation of each run." : "",
+                     {.title = fmt::format("{} against {}", row.curve, key),
                       .x = {key, ""},
-                      .y = {label, unit},
-                      .series = {series}}});
+                      .y = {std::string(row.curve), std::string(row.unit.axis)},
+                      .series = {std::move(series)}}});
   }
   return plots;
 }

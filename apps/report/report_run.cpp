@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/input/schema.hpp"
+#include "apps/results/observable_table.hpp"
 #include "solver/base/error.hpp"
 
 namespace myowave::apps {
@@ -60,33 +61,30 @@ std::string in_words(std::string name) {
   return name;
 }
 
-// Names of times: "breakup_tu", "shortening: t".
-bool is_time(std::string_view name) { return name.ends_with("_tu") || name == "t" || name.ends_with(": t"); }
+constexpr std::string_view time_unit = "t.u.";
 
-// Of an observable by its name; empty: a number without unit.
-std::string_view unit_of(std::string_view name) {
-  if (name == "core: x" || name == "core: y" || name == "core: radius") return " length units";
-  if (name == "core: drift_speed") return " length units/t.u.";
-  if (name.starts_with("conduction_velocity") && !name.ends_with(": n")) return " length units/t.u.";
-  if (name == "core: drift_direction") return " rad";
-  if (name.starts_with("area")) return " of the loaded sheet at rest";
-  if (name == "shortening: max") return " of the undeformed length";
-  return "";
+// Of an observable by the name of its fact: "core: radius"; empty: a number without unit.
+std::string_view unit_of(const std::string& name) {
+  std::string path;
+  for (const char letter : name)
+    if (letter != ' ') path += letter == ':' ? '/' : letter;
+  const ObservableRow* row = find_observable_row(path);
+  return row == nullptr ? "" : row->unit.text;
 }
 
-std::string value_text(std::string_view name, const json& value, double ms_per_tu) {
-  if (value.is_number() && is_time(name)) {
+std::string value_text(std::string_view unit, const json& value, double ms_per_tu) {
+  if (value.is_number() && unit == time_unit) {
     const double t = value.get<double>();
     return fmt::format("{:.6g} t.u. ({:.6g} ms)", t, t * ms_per_tu);
   }
-  if (value.is_number_float()) return fmt::format("{}{}", digits(value.get<double>()), unit_of(name));
+  if (value.is_number_float())
+    return fmt::format("{}{}{}", digits(value.get<double>()), unit.empty() ? "" : " ", unit);
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 void add_mean(std::vector<Fact>& facts, const std::string& name, const json& value, double ms_per_tu) {
-  const bool time = name == "period" || name == "apd" || name == "apd90";
   std::string text = spread(value, 1);
-  if (time) text += fmt::format(" t.u. ({} ms)", spread(value, ms_per_tu));
+  if (unit_of(name + ": mean") == time_unit) text += fmt::format(" t.u. ({} ms)", spread(value, ms_per_tu));
   if (value.contains("n") && value["n"].is_number()) text += fmt::format(", n = {}", value["n"].dump());
   facts.push_back({in_words(name), text});
 }
@@ -105,7 +103,7 @@ void add_observable(std::vector<Fact>& facts, const std::string& name, const jso
   if (value.is_null()) return;
   if (!value.is_object()) {
     const std::string bare = name.ends_with("_tu") ? name.substr(0, name.size() - 3) : name;
-    facts.push_back({in_words(bare), value_text(name, value, ms_per_tu)});
+    facts.push_back({in_words(bare), value_text(unit_of(name), value, ms_per_tu)});
     return;
   }
   if (const auto text = counts(value)) {
@@ -171,7 +169,7 @@ std::vector<Fact> ReportRun::numbers() const {
   const json summary = results_.summary();
   if (!summary.is_object()) return facts;
   const double ms = ms_per_tu();
-  if (summary.contains("t")) facts.push_back({"reached", value_text("t", summary["t"], ms)});
+  if (summary.contains("t")) facts.push_back({"reached", value_text(time_unit, summary["t"], ms)});
   if (summary.contains("observables"))
     for (const auto& [name, value] : results_.summary()["observables"].items())
       add_observable(facts, name, value, ms);

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "apps/base/time_units.hpp"
+#include "apps/results/observable_table.hpp"
 #include "solver/analysis/statistics.hpp"
 
 namespace myowave::apps {
@@ -165,36 +165,24 @@ std::string start_name(const StoredPlan& plan, const Layout& layout, const std::
   return is_start ? "start " + words : words;
 }
 
-struct Shown {
-  const char* column;
-  const char* label;
-  const char* unit;
-  double factor;
-};
-
 std::vector<NamedPlot> observable_plots(const SweepView& view) {
-  const std::array shown{Shown{"period_mean_tu", "period", "ms", to_seconds(1) * 1000},
-                         Shown{"apd90_mean_tu", "APD90", "ms", to_seconds(1) * 1000},
-                         Shown{"tips_mean", "number of tips", "", 1},
-                         Shown{"core_radius", "radius of the core", "length units", 1},
-                         Shown{"conduction_velocity_median", "conduction velocity", "length units/t.u.", 1},
-                         Shown{"area_min", "smallest area", "of the rest state", 1},
-                         Shown{"shortening_max", "largest shortening", "%", 100}};
   std::vector<std::size_t> others = view.layout().plots;
   if (view.layout().colour) others.push_back(*view.layout().colour);
   std::vector<NamedPlot> plots;
-  for (const Shown& one : shown) {
-    Plot plot{.title = one.label, .x = view.x_axis(), .y = {.label = one.label, .unit = one.unit}};
+  for (const ObservableRow& one : observable_table()) {
+    if (one.curve.empty()) continue;
+    const std::string label(one.curve);
+    Plot plot{.title = label, .x = view.x_axis(), .y = {.label = label, .unit = std::string(one.unit.axis)}};
     int number = 0;  // a curve has one colour in all plots
     for (const auto& [name, rows] : view.groups(view.rows(), others)) {
-      Series series = view.curve(name.empty() ? "runs" : name, rows, one.column, one.factor);
+      Series series = view.curve(name.empty() ? "runs" : name, rows, one.column, one.unit.factor);
       series.colour = number++;
       const bool any = std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); });
       if (any) plot.series.push_back(std::move(series));
     }
     if (plot.series.empty() || plot.series.size() > 2 * palette.size()) continue;
     plots.push_back(
-        {one.column, fmt::format("{} over the axes; a failed run has no mark.", one.label), plot});
+        {std::string(one.column), fmt::format("{} over the axes; a failed run has no mark.", label), plot});
   }
   return plots;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double json_number(const nlohmann::ordered_json& value) {
+double number_of(const nlohmann::ordered_json& value) {
   return value.is_number() ? value.get<double>() : none;
 }
 
@@ -43,12 +43,12 @@ std::vector<double> all_periods(std::span<const ProbePeriods> probes) {
 }
 
 double observable(const RunResults& run, std::string_view name) {
-  return json_number(run.summary().at("observables").at(std::string(name)));
+  return number_of(run.summary().at("observables").at(std::string(name)));
 }
 
 double observable(const RunResults& run, std::string_view name, std::string_view member) {
   const auto& value = run.summary().at("observables").at(std::string(name));
-  return value.is_object() ? json_number(value.at(std::string(member))) : none;
+  return value.is_object() ? number_of(value.at(std::string(member))) : none;
 }
 
 }  // namespace myowave::apps

@@ -12,7 +12,7 @@
 #include "apps/input/did_you_mean.hpp"
 #include "apps/input/scene_tables.hpp"
 #include "apps/input/schema.hpp"
-#include "apps/results/summary_file.hpp"
+#include "apps/results/observable_table.hpp"
 #include "apps/sweep/axis_table.hpp"
 #include "solver/base/error.hpp"
 #include "solver/run/stages.hpp"
@@ -31,13 +31,6 @@ struct BaseScene {
   toml::table tables;
   fs::path file;
 };
-
-std::vector<std::string> known_observables() {
-  const auto observables = summary_json({}, false, std::nullopt)["observables"];
-  std::vector<std::string> names;
-  for (const auto& [name, value] : observables.items()) names.push_back(name);
-  return names;
-}
 
 class SweepReader {
  public:
@@ -108,8 +101,8 @@ class SweepReader {
   void set(const std::string& key, const toml::node& value) { stop_.emplace_back(key, &value); }
 
   void read_keep() {
-    const auto known = known_observables();
-    plan_.observables = known;
+    const auto groups = observable_groups();
+    plan_.observables.assign(groups.begin(), groups.end());
     const auto* keep = table("keep", "a table");
     if (keep == nullptr) return;
     require_known_keys(*keep, "keep", {"observables", "folders"}, problems_);
@@ -119,22 +112,22 @@ class SweepReader {
                       fmt::format("keep.folders must be true or false, not {}", shown(*folders)));
       plan_.folders = folders->value_or(false);
     }
-    if (const auto* node = keep->get("observables")) read_observables(*node, known);
+    if (const auto* node = keep->get("observables")) read_observables(*node, groups);
   }
 
-  void read_observables(const toml::node& node, const std::vector<std::string>& known) {
-    const std::vector<std::string_view> names(known.begin(), known.end());
+  void read_observables(const toml::node& node, const std::vector<std::string_view>& names) {
     const auto* chosen = node.as_array();
     if (chosen == nullptr) {
       problems_.add(node.source(), fmt::format("keep.observables must be a list of {}, not {}",
                                                fmt::join(names, ", "), shown(node)));
       return;
     }
-    // What an outcome is told from is always kept.
-    std::set<std::string> kept{"breakup_tu", "death_tu"};
+    std::set<std::string, std::less<>> kept;
+    for (const auto& row : observable_table())
+      if (row.outcome) kept.emplace(row.group());
     for (const toml::node& element : *chosen) {
       const auto name = element.value_exact<std::string>();
-      if (name && std::ranges::find(known, *name) != known.end()) {
+      if (name && std::ranges::find(names, *name) != names.end()) {
         kept.insert(*name);
         continue;
       }

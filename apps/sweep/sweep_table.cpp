@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
+
+#include "apps/results/observable_table.hpp"
 
 namespace myowave::apps {
 namespace {
@@ -13,64 +14,35 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct Column {
-  const char* name;
-  const char* place;  // in a record
+  std::string name;
+  std::string place;  // in a record
 };
+
+void add_observables(std::vector<Column>& columns, const std::vector<std::string>& kept, bool outcome) {
+  for (const ObservableRow& row : observable_table()) {
+    const bool is_kept = std::ranges::find(kept, row.group()) != kept.end();
+    if (is_kept && row.outcome == outcome && !row.column.empty())
+      columns.push_back({std::string(row.column), fmt::format("/observables/{}", row.path)});
+  }
+}
 
 // Columns that start with wall or cell_steps depend on the machine and its load. All others are bitwise
 // identical on every machine with the same program.
-constexpr std::array columns_of_records{
-    Column{"outcome", "/outcome"},
-    Column{"breakup_tu", "/observables/breakup_tu"},
-    Column{"death_tu", "/observables/death_tu"},
-    Column{"t_tu", "/t"},
-    Column{"period_mean_tu", "/observables/period/mean"},
-    Column{"period_sd_tu", "/observables/period/sd"},
-    Column{"period_n", "/observables/period/n"},
-    Column{"apd_mean_tu", "/observables/apd/mean"},
-    Column{"apd_sd_tu", "/observables/apd/sd"},
-    Column{"apd_n", "/observables/apd/n"},
-    Column{"apd90_mean_tu", "/observables/apd90/mean"},
-    Column{"apd90_sd_tu", "/observables/apd90/sd"},
-    Column{"apd90_n", "/observables/apd90/n"},
-    Column{"tips_mean", "/observables/tips/mean"},
-    Column{"tips_sd", "/observables/tips/sd"},
-    Column{"tips_n", "/observables/tips/n"},
-    Column{"tips_correlation_tu", "/observables/tips/correlation_tu"},
-    Column{"tips_standard_error", "/observables/tips/standard_error"},
-    Column{"trajectories_n", "/observables/trajectories/n"},
-    Column{"core_x", "/observables/core/x"},
-    Column{"core_y", "/observables/core/y"},
-    Column{"core_radius", "/observables/core/radius"},
-    Column{"core_rotations", "/observables/core/rotations"},
-    Column{"core_drift_speed", "/observables/core/drift_speed"},
-    Column{"core_drift_direction", "/observables/core/drift_direction"},
-    Column{"core_boundary_tu", "/observables/core/boundary_tu"},
-    Column{"conduction_velocity_median", "/observables/conduction_velocity/median"},
-    Column{"conduction_velocity_lower_quartile", "/observables/conduction_velocity/lower_quartile"},
-    Column{"conduction_velocity_upper_quartile", "/observables/conduction_velocity/upper_quartile"},
-    Column{"area_min", "/observables/area/min"},
-    Column{"area_max", "/observables/area/max"},
-    Column{"shortening_max", "/observables/shortening/max"},
-    Column{"shortening_at_tu", "/observables/shortening/t"},
-    Column{"steps", "/steps"},
-    Column{"newton_iterations", "/mechanics/newton_iterations"},
-    Column{"failure", "/failure"},
-    Column{"wall_s", "/cost/wall_s"},
-    Column{"wall_precondition_s", "/cost/precondition_s"},
-    Column{"cell_steps_per_s", "/cost/cell_steps_per_s"},
-};
-
-// "/observables/period/mean" is of "period".
-bool is_selected(const Column& column, const std::vector<std::string>& observables) {
-  constexpr std::string_view before = "/observables/";
-  std::string_view place = column.place;
-  if (!place.starts_with(before)) return true;
-  place.remove_prefix(before.size());
-  return std::ranges::find(observables, place.substr(0, place.find('/'))) != observables.end();
+std::vector<Column> columns_of_records(const std::vector<std::string>& kept) {
+  std::vector<Column> columns{{"outcome", "/outcome"}};
+  add_observables(columns, kept, true);
+  columns.push_back({"t_tu", "/t"});
+  add_observables(columns, kept, false);
+  columns.insert(columns.end(), {{"steps", "/steps"},
+                                 {"newton_iterations", "/mechanics/newton_iterations"},
+                                 {"failure", "/failure"},
+                                 {"wall_s", "/cost/wall_s"},
+                                 {"wall_precondition_s", "/cost/precondition_s"},
+                                 {"cell_steps_per_s", "/cost/cell_steps_per_s"}});
+  return columns;
 }
 
-json cell(const nlohmann::ordered_json& record, const char* place) {
+json cell(const nlohmann::ordered_json& record, const std::string& place) {
   const nlohmann::ordered_json::json_pointer at(place);
   return record.contains(at) ? record[at] : json();
 }
@@ -109,10 +81,8 @@ SweepTable read_table(const std::filesystem::path& path) {
   Records records = read_records(path);
   table.refused = std::move(records.refused);
   for (const auto& axis : table.plan.axes) table.columns.push_back(axis.key);
-  std::vector<Column> selected;
-  for (const Column& column : columns_of_records)
-    if (is_selected(column, table.plan.observables)) selected.push_back(column);
-  for (const Column& column : selected) table.columns.emplace_back(column.name);
+  const std::vector<Column> columns = columns_of_records(table.plan.observables);
+  for (const Column& column : columns) table.columns.push_back(column.name);
   for (std::size_t n = 0; n < table.plan.runs.size(); ++n) {
     const auto& run = table.plan.runs[n];
     const auto record = records.by_id.find(run.id);
@@ -125,7 +95,7 @@ SweepTable read_table(const std::filesystem::path& path) {
     std::vector<json> row;
     for (std::size_t axis = 0; axis < run.at.size(); ++axis)
       row.push_back(table.plan.axes[axis].values[run.at[axis]]);
-    for (const Column& column : selected) row.push_back(cell(record->second, column.place));
+    for (const Column& column : columns) row.push_back(cell(record->second, column.place));
     table.cells.push_back(std::move(row));
     table.runs.push_back(n);
   }

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "apps/results/observable_table.hpp"
 #include "solver/analysis/error_norms.hpp"
 #include "solver/analysis/richardson.hpp"
 #include "solver/analysis/statistics.hpp"
@@ -20,21 +20,47 @@ using Chaos = Observable::Chaos;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-constexpr std::array all{
-    Observable{"cv", "speed of a plane wave", "%", Kind::relative, Chaos::same},
-    Observable{"apd", "duration of an action potential", "%", Kind::relative, Chaos::same},
-    Observable{"period", "period", "%", Kind::relative, Chaos::statistic},
-    Observable{"shortening", "largest shortening", "%", Kind::relative, Chaos::statistic},
-    Observable{"area", "area over time", "%", Kind::curve, Chaos::left_out},
-    Observable{"field_half", "V at half of the time", "%", Kind::field_half, Chaos::left_out},
-    Observable{"field_end", "V at the end", "%", Kind::field_end, Chaos::left_out},
-    Observable{"tip", "place of the tips at the end", "length units", Kind::tips, Chaos::left_out},
-    Observable{"core_radius", "radius of the core", "%", Kind::relative, Chaos::left_out},
-    Observable{"drift", "speed of the drift", "length units/t.u.", Kind::absolute, Chaos::left_out},
-    Observable{"breakup", "time of break-up", "t.u.", Kind::event, Chaos::statistic},
-    Observable{"tips", "mean number of tips", "%", Kind::relative, Chaos::statistic_only},
-    Observable{"area_mean", "mean area", "%", Kind::relative, Chaos::statistic_only},
-};
+Observable observable_of(const ObservableRow& row) {
+  using enum ObservableError::Kind;
+  const auto& [name, title, kind, chaos] = row.error;
+  return {name, title, kind == relative ? "%" : row.unit.text,
+          kind == relative   ? Kind::relative
+          : kind == absolute ? Kind::absolute
+                             : Kind::event,
+          chaos == ObservableError::Chaos::left_out    ? Chaos::left_out
+          : chaos == ObservableError::Chaos::statistic ? Chaos::statistic
+                                                       : Chaos::statistic_only};
+}
+
+// Means of every scene, single trajectories, events, means of chaotic scenes.
+enum class Group { statistic, path, event, statistic_only };
+
+Group group_of(const Observable& one) {
+  if (one.kind == Kind::event) return Group::event;
+  if (one.chaos == Chaos::left_out) return Group::path;
+  return one.chaos == Chaos::statistic ? Group::statistic : Group::statistic_only;
+}
+
+std::vector<Observable> make_observables() {
+  std::vector<Observable> all{{"cv", "speed of a plane wave", "%", Kind::relative, Chaos::same},
+                              {"apd", "duration of an action potential", "%", Kind::relative, Chaos::same}};
+  const auto add = [&all](Group group) {
+    for (const ObservableRow& row : observable_table())
+      if (row.error.kind != ObservableError::Kind::none && group_of(observable_of(row)) == group)
+        all.push_back(observable_of(row));
+  };
+  add(Group::statistic);
+  all.insert(all.end(),
+             {{"area", "area over time", "%", Kind::curve, Chaos::left_out},
+              {"field_half", "V at half of the time", "%", Kind::field_half, Chaos::left_out},
+              {"field_end", "V at the end", "%", Kind::field_end, Chaos::left_out},
+              {"tip", "place of the tips at the end", "length units", Kind::tips, Chaos::left_out}});
+  add(Group::path);
+  add(Group::event);
+  add(Group::statistic_only);
+  all.push_back({"area_mean", "mean area", "%", Kind::relative, Chaos::statistic_only});
+  return all;
+}
 
 bool is_number(const Observable& one) {
   return one.kind == Kind::relative || one.kind == Kind::absolute || one.kind == Kind::event;
@@ -140,11 +166,14 @@ std::optional<ReferenceValue> finest_of(const Observable& one, std::span<const i
 
 }  // namespace
 
-std::span<const Observable> observables() { return all; }
+std::span<const Observable> observables() {
+  static const std::vector<Observable> all = make_observables();
+  return all;
+}
 
 const Observable* find_observable(std::string_view name) {
-  const auto found = std::ranges::find(all, name, &Observable::name);
-  return found == all.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(observables(), name, &Observable::name);
+  return found == observables().end() ? nullptr : &*found;
 }
 
 std::optional<double> error_of(const Observable& one, const Measures& a, const Measures& b) {
@@ -179,7 +208,7 @@ Reference make_reference(std::vector<int> k, std::span<const Measures> levels,
                          std::span<const Measures> starts) {
   Reference reference{std::move(k), is_chaotic(levels), levels.back(), {}};
   reference.best.numbers.clear();
-  for (const Observable& one : all) {
+  for (const Observable& one : observables()) {
     if (!is_compared(one, reference.chaotic)) continue;
     std::optional<ReferenceValue> value;
     if (!is_number(one)) {

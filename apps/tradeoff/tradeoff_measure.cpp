@@ -10,6 +10,7 @@
 #include "apps/base/signals.hpp"
 #include "apps/input/initial_state.hpp"
 #include "apps/input/resample.hpp"
+#include "apps/results/observable_table.hpp"
 #include "solver/run/make_initial_state.hpp"
 #include "solver/run/run.hpp"
 
@@ -111,13 +112,11 @@ solver::InitialState on_grid(const solver::InitialState& state, const solver::Gr
 
 void add_numbers(const solver::Observables& seen, Measures& measures) {
   auto& numbers = measures.numbers;
-  if (seen.period.n > 0) numbers["period"] = seen.period.mean;
-  if (seen.tips.n > 0) numbers["tips"] = seen.tips.mean;
-  if (seen.shortening) numbers["shortening"] = seen.shortening->first;
-  if (seen.breakup_tu) numbers["breakup"] = *seen.breakup_tu;
-  const auto& longest = seen.longest_trajectory;
-  if (longest && longest->core) numbers["core_radius"] = longest->core->radius;
-  if (longest && longest->drift) numbers["drift"] = longest->drift->speed;
+  for (const ObservableRow& row : observable_table()) {
+    if (row.error.kind == ObservableError::Kind::none) continue;
+    if (const auto value = row.get(seen); value.is_number())
+      numbers[std::string(row.error.name)] = value.get<double>();
+  }
   const auto& areas = measures.area.value;
   if (!areas.empty())
     numbers["area_mean"] =
