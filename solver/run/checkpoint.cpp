@@ -142,8 +142,7 @@ std::variant<std::string, FoundCheckpoint> read_checkpoint(const fs::path& path)
     body += size;
   }
   const std::uint64_t whole = sizeof header + body + sizeof header.checksum;
-  if (bytes.size() < whole)
-    return fmt::format("it is truncated: it has {} of {} bytes", bytes.size(), whole);
+  if (bytes.size() < whole) return fmt::format("it is truncated: it has {} of {} bytes", bytes.size(), whole);
   if (bytes.size() > whole) return fmt::format("it has {} extra bytes at its end", bytes.size() - whole);
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + sizeof header + body, sizeof checksum);
