@@ -84,7 +84,7 @@ class RandomScene {
   }
 
   void add_other_keys(const apps::Section& section, SceneText::Table& table) {
-    constexpr double probability = 0.25;
+    constexpr double probability = 0.4;
     const auto here = ruled.find(section.name);
     for (const apps::Key& key : section.keys) {
       const bool other_type = !key.only_type.empty() && key.only_type != type_;
