@@ -1,5 +1,5 @@
 // Phase singularities (spiral tips): grid squares around whose four nodes (V - 0.5, dV/dt) winds by
-// +-2 pi, found on the device and compacted, so that no field goes to the host. The same sweep gives
+// +-2 pi, found on the device and compacted, so that no field goes to the host. The same pass gives
 // the largest V, by which the death of all activity is told.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How far an equilibrium is from where the model loses its sense.
+// Distance of an equilibrium from loss of ellipticity.
 #pragma once
 
 #include <Kokkos_Core.hpp>

@@ -11,7 +11,7 @@ namespace myowave::solver {
 //
 //   2 (s - s^-2)(c1 + c2 s) + Ta = p s (follower) or p sqrt s (dead)
 //
-// Empty where there is none, as for a follower load with c2 = 0 and p >= 2 c1.
+// Empty if there is none, as for a follower load with c2 = 0 and p >= 2 c1.
 std::optional<double> equibiaxial_stretch(const MechanicsSettings&, double Ta);
 
 }  // namespace myowave::solver

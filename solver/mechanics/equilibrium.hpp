@@ -13,7 +13,7 @@
 
 namespace myowave::solver {
 
-// What one solve took.
+// Cost and result of one solve.
 struct SolveReport {
   std::int64_t iterations = 0;
   std::int64_t factorizations = 0;
@@ -38,9 +38,9 @@ class Equilibrium {
   Equilibrium& operator=(Equilibrium&&) noexcept;
 
   // Brings the nodes to equilibrium with the tension (kPa, at the Gauss points), starting from the
-  // last solution, or, where there is none, from the uniform one for the mean tension. On failure
+  // last solution, or, if there is none, from the uniform one for the mean tension. On failure
   // the nodes keep the last solution.
-  // Errors: NumericalFailure with time, Ta range, min J and what was tried; without iterating where
+  // Errors: NumericalFailure with time, Ta range, min J and what was tried; without iterating if
   // the sheet has no stable rest state.
   SolveReport solve(const ExecutionSpace&, const GaussTension<MemorySpace>& Ta, double time);
 
@@ -55,9 +55,8 @@ class Equilibrium {
 
   const elastic::ElementGrid& grid() const;
 
-  // What the next solve depends on. Of the last factor, which a solve begins with, what it was made from is
-  // kept: load() makes it again, the same to the bit.
-  // Errors: StateMismatch.
+  // Everything that the next solve depends on. Of the last factor, which a solve starts with, only the inputs
+  // are saved: load() factorises again, with a bitwise identical result. Errors: StateMismatch.
   void save(StateWriter&) const;
   void load(const ExecutionSpace&, StateReader&);
 

@@ -1,4 +1,4 @@
-// What a solve of the equilibrium took, and the message where it failed.
+// Attempts of a solve of the equilibrium, and the message if it failed.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace myowave::solver {
 
-// Every attempt of one solve together.
+// All attempts of one solve together.
 struct Effort {
   std::int64_t iterations = 0, factorizations = 0, shifts = 0, halvings = 0, ramp_steps = 0;
   double largest_shift = 0;  // kPa

@@ -1,4 +1,4 @@
-// What the element mesh gives to the sparse system: unknowns, held displacements, the pattern of
+// What the sparse system needs of the element mesh: unknowns, held displacements, the pattern of
 // the tangent and the elements that feed each of its slots. Host data, built once.
 #pragma once
 
@@ -41,7 +41,7 @@ int middle_node(const elastic::ElementGrid&);
 // Edges::fixed: every boundary node.
 std::vector<bool> held_components(const elastic::ElementGrid&, Edges);
 
-// Errors: InputError where the mesh is empty or leaves no unknown.
+// Errors: InputError if the mesh is empty or has no unknown.
 Mesh make_mesh(const elastic::ElementGrid&, Edges);
 
 }  // namespace myowave::solver

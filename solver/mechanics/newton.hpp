@@ -56,7 +56,7 @@ struct NewtonSettings {
   double least_shift = 1;  // kPa; at or below, mu = 0
 };
 
-// Where the time went, s.
+// Time by phase, s.
 struct PhaseTimes {
   double assemble = 0, factorize = 0, triangular = 0, energy = 0;
   PhaseTimes& operator+=(const PhaseTimes& other) {
@@ -133,7 +133,7 @@ class Newton {
   }
 
  private:
-  // A step with a new factor; true where one was accepted.
+  // A step with a new factor; true if one was accepted.
   bool step(Evaluation& current, double shift, NewtonReport& report) {
     ++report.factorizations;
     report.last_shift = shift;
@@ -149,7 +149,7 @@ class Newton {
   }
 
   // direction_ = -K^-1 R by the last factor. `tangent` is what it was made from; empty: it is of an earlier
-  // tangent. false where the direction does not solve the system.
+  // tangent. false if the direction does not solve the system.
   bool find_direction(std::span<const double> tangent, NewtonReport& report) {
     const auto residual = problem_.residual();
     direction_.resize(residual.size());
@@ -162,7 +162,7 @@ class Newton {
     return solved;
   }
 
-  // The line search along direction_; true where a step was accepted.
+  // The line search along direction_; true if a step was accepted.
   bool descend(Evaluation& current, NewtonReport& report) {
     const auto residual = problem_.residual();
     double slope = 0;

@@ -1,5 +1,5 @@
-// What explicit steps at some dt make of a sheet that is held deformed: a broken front on the product's own
-// kernels, without mechanics.
+// Explicit steps at some dt on a sheet that is held deformed: a broken front, with the kernels of a run and
+// without mechanics.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ enum class StepOutcome { right, wrong, blown_up };
 
 struct StepReport {
   bool blown_up = false;  // V not finite or beyond +-10
-  double noise = 0;       // largest at any look, see kernels/observe/state_check.hpp
+  double noise = 0;       // largest at any sample, see kernels/observe/state_check.hpp
   double min_V = 0, max_V = 0;
   bool told = false;  // the check of a run (solver/excitation/state_check.hpp) finds an invalid state
 
@@ -39,7 +39,7 @@ struct StabilityBounds {
 
 StabilityBounds stability_bounds(const StepTrial&);
 
-// Looks at the state once in a t.u., for noise and range of V from 5 t.u. on: the front starts as a jump,
+// Samples the state once per t.u., for noise and range of V from 5 t.u. on: the front starts as a jump,
 // which is grid-scale noise until it has spread. To let a growing mode show within the run, V starts with
 // 1e-6 of alternating sign at each node.
 StepReport try_steps(const StepTrial&, double dt);
