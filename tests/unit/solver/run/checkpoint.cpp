@@ -203,7 +203,7 @@ TEST_F(Checkpoint, OtherFilesAreReported) {
   std::string newer = sound;
   newer[16] = 9;
   write(file, newer);
-  expect_refused(file, "its format, 9, is newer than this program's, 2");
+  expect_refused(file, "its format, 9, is newer than this program's, 3");
   std::string swapped = sound;
   std::reverse(swapped.begin() + 20, swapped.begin() + 24);
   write(file, swapped);
