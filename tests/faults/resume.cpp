@@ -179,7 +179,7 @@ TEST_F(ResumedCommand, StoppedBySignalsIsTheUninterruptedRun) {
     expect_same(results(out), expected);
     const auto again = run_myowave({"run", "--resume", out.string()});
     EXPECT_EQ(again.status, 0);
-    EXPECT_THAT(again.output, HasSubstr("has ended"));
+    EXPECT_THAT(again.output, HasSubstr("is finished"));
   }
 }
 
