@@ -37,8 +37,8 @@ endfunction()
 
 tells(index "myowave simulates excitable muscle")
 tells(md_solver_MODEL "Order of a step s, t = s dt")
-tells(plan_8hpp "What a scene requires: which parts of the model run")
-tells(namespacemyowave_1_1solver "Plan make_plan (const Scene &) 64-bit arithmetic, nothing is allocated")
+tells(plan_8hpp "The plan of a run: which parts of the model run")
+tells(namespacemyowave_1_1solver "Plan make_plan (const Scene &) Uses 64-bit arithmetic and allocates nothing")
 tells(structmyowave_1_1solver_1_1SolveReport "double min_J = 0 smallest det F at any corner of any element")
 tells(classmyowave_1_1solver_1_1Equilibrium
   "Equilibrium (const ExecutionSpace &, const elastic::ElementGrid &, const MechanicsSettings &) Starts undeformed.")

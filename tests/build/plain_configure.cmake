@@ -15,4 +15,4 @@ if(NOT output MATCHES "excitation on  ${BACKEND}\n" OR NOT output MATCHES "build
   message(FATAL_ERROR "not the summary of a plain build on ${BACKEND}: ${output}")
 endif()
 # Only an object: linking needs the libc of Debian's Kokkos, which ./dev provides.
-run(--build ${WORK} --target solver/CMakeFiles/myowave_solver.dir/device_memory.cpp.o)
+run(--build ${WORK} --target solver/CMakeFiles/myowave_solver.dir/run/device_memory.cpp.o)
