@@ -189,7 +189,7 @@ TEST_F(Sweeps, ADryRunWritesNothing) {
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("small: 6 runs\n"));
   EXPECT_THAT(outcome.output, HasSubstr("shared states           1, from which 6 runs start\n"));
-  EXPECT_THAT(outcome.output, HasSubstr("with 2 at once"));
+  EXPECT_THAT(outcome.output, HasSubstr("with 2 in parallel"));
   EXPECT_FALSE(fs::exists(folder_ / "dry"));
 }
 

@@ -39,7 +39,7 @@ std::vector<std::string> blocks(const std::string& markdown, const std::string& 
 }
 
 TEST(Tutorial, CommandsHaveTheDocumentedOutput) {
-  const std::string tutorial = read_text(MYOWAVE_SOURCE_DIR "/apps/tutorial.md");
+  const std::string tutorial = read_text(MYOWAVE_SOURCE_DIR "/apps/cli/tutorial.md");
   const TemporaryFolder temporary;
   const fs::path folder = temporary / "spirals";
   fs::create_directory(folder);
