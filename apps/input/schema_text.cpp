@@ -20,7 +20,8 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
     const std::string_view word = text.substr(0, text.find(' '));
     text.remove_prefix(std::min(word.size() + 1, text.size()));
     if (column > indent && column + word.size() + 1 > width) {
-      result += '\n' + std::string(indent, ' ');
+      result += '\n';
+      result.append(indent, ' ');
       column = indent;
     }
     if (column > indent) {
@@ -120,7 +121,10 @@ std::string default_text(const Key& key) {
 std::string describe(std::string_view name) {
   if (name.empty()) {
     std::string text;
-    for (const Section& section : schema()) text += (text.empty() ? "" : "\n") + describe_section(section);
+    for (const Section& section : schema()) {
+      if (!text.empty()) text += '\n';
+      text += describe_section(section);
+    }
     return text;
   }
   if (const Section* section = find_section(name)) return describe_section(*section);

@@ -292,12 +292,12 @@ class SweepReader {
   void make_runs(const BaseScene& base) {
     plan_.runs.reserve(count_);
     for (std::size_t n = 0; n < count_ && problems_.size() < most_problems; ++n) {
-      SweepRun run{place_of(n), {}, {}};
+      const std::vector<std::size_t> at = place_of(n);
       std::vector<TableOverride> overrides = stop_;
-      for (std::size_t axis = 0; axis < run.at.size(); ++axis)
-        overrides.push_back({plan_.axes[axis].key, nodes_[axis].get(run.at[axis])});
+      for (std::size_t axis = 0; axis < at.size(); ++axis)
+        overrides.push_back({plan_.axes[axis].key, nodes_[axis].get(at[axis])});
       Problems problems(base.file.string());
-      run.scene = read_tables(base.tables, base.file, overrides, problems);
+      SweepRun run{at, {}, read_tables(base.tables, base.file, overrides, problems)};
       run.scene.name = plan_.name;
       add_problems(problems, run);
       if (problems.size() == 0) finish(run, n);

@@ -63,7 +63,7 @@ std::string csv_cell(const json& value) {
 std::string short_text(const json& value) {
   constexpr std::size_t longest = 40;
   std::string text = value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : text_of(value);
-  if (text.size() > longest) text = text.substr(0, longest - 3) + "...";
+  if (text.size() > longest) text.replace(longest - 3, std::string::npos, "...");
   return text;
 }
 

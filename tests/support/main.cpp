@@ -1,5 +1,6 @@
 // main of every test: Kokkos around GoogleTest. --file=SOURCE, a path from the root, runs the tests of that
 // source only.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Kokkos_Core.hpp>
@@ -11,15 +12,15 @@ namespace {
 
 // The filter that selects the tests that are defined in the file; empty if there are none.
 std::string filter_of_file(std::string_view path) {
-  const std::string end = "/" + std::string(path);
+  const std::string end = fmt::format("/{}", path);
   std::string filter;
   const auto& tests = *testing::UnitTest::GetInstance();
   for (int n = 0; n < tests.total_test_suite_count(); ++n) {
     const auto& suite = *tests.GetTestSuite(n);
     for (int m = 0; m < suite.total_test_count(); ++m) {
       const auto& test = *suite.GetTestInfo(m);
-      if (("/" + std::string(test.file())).ends_with(end))
-        filter += std::string(filter.empty() ? "" : ":") + suite.name() + "." + test.name();
+      if (fmt::format("/{}", test.file()).ends_with(end))
+        filter += fmt::format("{}{}.{}", filter.empty() ? "" : ":", suite.name(), test.name());
     }
   }
   return filter;

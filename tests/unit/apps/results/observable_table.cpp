@@ -13,8 +13,8 @@ TEST(ObservableTable, HasEachNameOnceAndGroupsTogether) {
   std::set<std::string_view> paths, columns, errors;
   for (const auto& row : observable_table()) {
     EXPECT_TRUE(paths.insert(row.path).second) << row.path;
-    if (!row.column.empty()) EXPECT_TRUE(columns.insert(row.column).second) << row.column;
-    if (row.error.kind != ObservableError::Kind::none) EXPECT_TRUE(errors.insert(row.error.name).second);
+    EXPECT_TRUE(row.column.empty() || columns.insert(row.column).second) << row.column;
+    EXPECT_TRUE(row.error.kind == ObservableError::Kind::none || errors.insert(row.error.name).second);
     EXPECT_TRUE(row.curve.empty() || !row.column.empty()) << "curves of sweeps are of columns: " << row.path;
   }
   const auto groups = observable_groups();
