@@ -146,7 +146,7 @@ struct ChosenPreset {
     over_the_file = tables.origins.is_override(*chosen);
     const bool elastic = root.contains("mechanics") && root.at_path("mechanics.on").value_or(true);
     for (const PresetValue& one : preset->values) {
-      // A section that is no table is told of when it is read.
+      // A section that is no table is reported when it is read.
       const toml::node* const section = root.get(one.key.substr(0, one.key.find('.')));
       if (one.holds(elastic) && (section == nullptr || section->is_table())) values.push_back(one);
     }

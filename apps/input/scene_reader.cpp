@@ -303,7 +303,7 @@ class SceneReader {
     if (is_disc == is_block) return false;
     if (is_disc) return set_disc(*table, path, stimulus);
     stimulus.shape = Shape::block;
-    // Both, so that the errors of both are told.
+    // Read both, so that the errors of both are reported.
     const bool columns = set_side(*table, "columns", path, scene_.grid.columns, stimulus.columns);
     const bool rows = set_side(*table, "rows", path, scene_.grid.rows, stimulus.rows);
     return columns && rows;
