@@ -7,7 +7,7 @@
 
 namespace myowave::apps {
 
-// The name nearest to `word` by edit distance, or "" where none is near enough to be meant.
+// The name nearest to `word` by edit distance, or "" if no name is near enough.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& names);
 // "; did you mean "..."?", empty where nothing is meant.
 std::string hint(std::string_view meant);

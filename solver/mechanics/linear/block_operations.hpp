@@ -94,7 +94,7 @@ inline Lanes times(const double* block, const double* x) {
   return even + odd;
 }
 
-// One block of the diagonal, in place of which stands the inverse of its L afterwards, column by column;
+// Factorises one block of the diagonal and replaces it by the inverse of its L, column by column;
 // `inverse_rows` is the same row by row. false where a pivot is zero or not finite.
 inline bool factorize_diagonal(double* diagonal, double* D, double* inverse_D, double* inverse_rows) {
   double a[width][width];

@@ -278,7 +278,7 @@ TEST_P(DirectSolverAccuracy, LeavesAccurateSolutionsAsTheyAre) {
   }
 }
 
-// L D L^T with pivots over ten orders of magnitude, all positive: no check is made, because none is needed.
+// L D L^T with pivots over ten orders of magnitude, all positive. Definite factors are not checked.
 TEST_P(DirectSolverAccuracy, SolvesDefiniteMatricesWithTinyPivots) {
   constexpr int size = 24;
   int definite = 0;
